@@ -7,7 +7,7 @@ study:
 	$(clatter_tool) study study.toml -j2
 slap_study.run.h5: block.rom.h5 piston.rom.h5
 slap_study.field.h5: slap_study.run.h5 speeds.field.toml block.sound.h5 $(clatter_recover)
-	$(CLATTER_LAUNCH) $(clatter_recover) $< -c speeds.field.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+	$(call clatter_run,recover) $< -c speeds.field.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
 
 # Figures 8 to 10 of the paper with four layers of oil and without: `make study-paper -j2`, ten runs.
 .PHONY: study-paper
@@ -74,11 +74,11 @@ block_liner%.fe.toml: block.fe.toml
 block_damping%.fe.toml: block.fe.toml
 	sed 's/^ratio = .*/ratio = 0.0$*/' $< >$@
 $(study_blocks:=.fe.h5): %.fe.h5: block.mesh.h5 %.fe.toml $(clatter_assembly)
-	$(CLATTER_LAUNCH) $(clatter_assembly) $< -c $*.fe.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+	$(call clatter_run,assembly) $< -c $*.fe.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
 $(study_blocks:=.rom.h5): %.rom.h5: %.fe.h5 block.rom.toml $(clatter_condense)
-	$(CLATTER_LAUNCH) $(clatter_condense) $< -c block.rom.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+	$(call clatter_run,condense) $< -c block.rom.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
 $(study_blocks:=.sound.h5): %.sound.h5: %.rom.h5 block.sound.toml $(clatter_recover)
-	$(CLATTER_LAUNCH) $(clatter_recover) sound $< -c block.sound.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+	$(call clatter_run,recover) sound $< -c block.sound.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
 $(study_blocks:=.field.toml): %.field.toml: speeds.field.toml
 	sed 's/block.sound.h5/$*.sound.h5/' $< >$@
 
@@ -98,7 +98,7 @@ $(filter piston_offset%,$(study_pistons:=.mesh.toml)): piston_offset%.mesh.toml:
 $(filter piston_offset%,$(study_pistons:=.fe.toml)): piston_offset%.fe.toml: piston.fe.toml
 	sed 's/^axis_point = .*/axis_point = [0.0, $(patsubst --%,%,-$*), 0.0]/' $< >$@
 $(study_pistons:=.rom.h5): %.rom.h5: %.fe.h5 piston.rom.toml $(clatter_condense)
-	$(CLATTER_LAUNCH) $(clatter_condense) $< -c piston.rom.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+	$(call clatter_run,condense) $< -c piston.rom.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
 motored_%bar.csv: $(clatter_tool)
 	$(clatter_tool) motored-cycle --intake-bar $* $@
 fired_%bar.csv: $(clatter_tool)

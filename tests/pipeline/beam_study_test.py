@@ -76,13 +76,16 @@ class BeamStudy(unittest.TestCase):
 
     def test_effects_are_switched_off_and_on(self):
         found = effects.make(self.folder / "short.toml", 2)
-        self.assertEqual([(one.name, one.to) for one in found.switches], [("gravity", "on"), ("force", "off")])
-        gravity, force = found.switches
-        self.assertEqual([one.changes[0].number() for one in found.switches], [0.0, 0.0])
+        self.assertEqual([(one.name, one.to) for one in found.switches], [("elastic beam", "off"), ("gravity", "on"), ("force", "off")])
+        elastic, gravity, force = found.switches
+        self.assertEqual([one.changes[0].number() for one in found.switches], [0.0, 0.0, 0.0])
+        # A rigid beam that is clamped has no coordinate that could move: its run is refused.
+        self.assertIsNone(elastic.changes[1])
+        self.assertEqual(effects.advice(found, elastic), "keep, not known with it off: mean of the tip")
         self.assertLess(gravity.changes[1].number(), 0.0)  # along -z
         self.assertAlmostEqual(force.changes[1].number(), -found.base[1].number(), delta=1e-15)  # without it nothing moves
-        self.assertTrue(effects.report(found)[0].startswith("gravity (off): fourth frequency +0 %, mean of the tip -"))
-        self.assertTrue(effects.report(found)[1].endswith("keep"))
+        self.assertTrue(effects.report(found)[1].startswith("gravity (off): fourth frequency +0 %, mean of the tip -"))
+        self.assertTrue(effects.report(found)[2].endswith("keep"))
 
     def test_the_sample_s_study_is_read_and_names_what_the_pipeline_has(self):
         done = subprocess.run(["make", "-n", "study"], cwd=self.folder, capture_output=True, text=True, env={**os.environ, "MAKEFLAGS": ""}, check=True)

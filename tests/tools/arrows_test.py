@@ -5,7 +5,11 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from observed import observed  # noqa: E402
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("CLATTER_BUILD", SOURCE / "build/release"))
@@ -241,30 +245,34 @@ class Linking(unittest.TestCase):
             with self.subTest(stage=stage):
                 libraries = [*loaded(self.executable(stage)), *needed(self.executable(stage))]
                 self.assertEqual([name for name in libraries if name.startswith(HEAVY)], [])
+        observed("dynamics and recover load no heavy library")
 
     def test_hardC10_only_mesh_links_gmsh(self):
         for stage in ("assembly", "modal", "condense"):
             with self.subTest(stage=stage):
                 libraries = loaded(self.executable(stage))
-                print(stage, "links", " ".join(sorted(name.split(".so")[0] for name in needed(self.executable(stage)))))
                 self.assertEqual([name for name in libraries if name.startswith("libgmsh")], [])
+                observed(f"clatter-{stage} links {' '.join(sorted(name.split('.so')[0] for name in needed(self.executable(stage))))}")
 
     def test_hardN13_programs_of_one_process_load_no_mpi(self):
         for stage in ("assembly", "modal", "condense", "dynamics", "recover"):
             with self.subTest(stage=stage):
                 libraries = loaded(self.executable(stage))
                 self.assertEqual([name for name in libraries if name.startswith(("libmpi.", "libdmumps-"))], [])
+        observed("five programs of one process load neither MPI nor MUMPS")
 
     def test_hardH6_one_libhdf5_per_executable(self):
         for stage in STAGES:
             with self.subTest(stage=stage):
                 found = [name for name in loaded(self.executable(stage)) if re.match(r"libhdf5(_serial|_openmpi)?\.so", name)]
                 self.assertEqual(len(found), 1, f"clatter-{stage} loads {found}")
+        observed(f"each of {len(STAGES)} programs loads one libhdf5: {found[0]}")
 
     def test_hardE5_our_eigen_is_not_visible_to_gmsh(self):
         symbols = subprocess.run(["nm", "-D", "-C", "--defined-only", self.executable("mesh")],
                                  capture_output=True, text=True, check=True).stdout
         self.assertEqual([line for line in symbols.splitlines() if "Eigen::" in line], [])
+        observed(f"none of {len(symbols.splitlines())} visible symbols of clatter-mesh is of Eigen")
 
     def test_hardE5_one_set_of_flags_for_all_targets(self):
         commands = BUILD / "compile_commands.json"
@@ -278,6 +286,7 @@ class Linking(unittest.TestCase):
             # Flags that change the layout or alignment of types: machine, language, optimisation, sanitizers.
             layout = frozenset(w for w in words if re.match(r"-(m|O|std=|fsanitize|f(pack|short|abi)|DEIGEN_|DNDEBUG)", w))
             flags.setdefault(layout, []).append(entry["file"])
+        observed(f"{sum(map(len, flags.values()))} sources, {len(flags)} set of flags")
         self.assertEqual(len(flags), 1, "\n".join(f"{sorted(f)}: {files[:3]}" for f, files in flags.items()))
 
 

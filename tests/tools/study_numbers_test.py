@@ -8,8 +8,9 @@ import unittest
 import h5py
 import numpy as np
 
+from clatter_tools import slap
 from clatter_tools.artefact import BadArtefact
-from clatter_tools.study import convergence, plan, quantities, toml_text
+from clatter_tools.study import convergence, effect_keys, effects, plan, quantities, toml_text
 
 
 class Convergence(unittest.TestCase):
@@ -33,6 +34,47 @@ class Convergence(unittest.TestCase):
 
     def test_the_pareto_front_is_what_nothing_beats(self):
         self.assertEqual(convergence.pareto([1.0, 2.0, 3.0, 2.5, 9.0], [1.0, 0.5, 0.6, 0.1, float("nan")]), [0, 1, 3])
+
+
+class EffectKeys(unittest.TestCase):
+    SCENE = {"contact": {"friction": True}, "cylinder": [{"name": "c1"}, {"name": "c3", "contact": {"friction": True}}], "shaft": [{"name": "intake"}],
+             "valve": [{"name": "intake", "model": "full"}], "piston": {}}
+
+    def keys(self, name):
+        return effect_keys.keys_of(name, lambda path: toml_text.value_at(self.SCENE, path))
+
+    def test_effects_of_all_cylinders_have_one_name(self):
+        for name, plain in (("c3: oil film", "oil film"), ("elastic c1_piston", "elastic piston"), ("elastic piston", "elastic piston"),
+                            ("other: oil film", "other: oil film"), ("elastic block", "elastic block")):
+            self.assertEqual(effect_keys.plain_name(name, ["c1", "c3"]), plain)
+        states = effects.plain_states({"c1: friction": "off", "c3: friction": "on", "c1: oil film": "off", "c3: oil film": "off"},
+                                      lambda path: toml_text.value_at(self.SCENE, path))
+        self.assertEqual(states, {"friction": "on", "oil film": "off"})
+
+    def test_keys_are_those_of_the_scene_and_of_the_cylinders_that_have_their_own(self):
+        self.assertEqual(self.keys("friction"), [(("contact", "friction"), False, True), (("cylinder", "c3", "contact", "friction"), False, True)])
+        self.assertEqual(self.keys("intake bending"), [(("shaft", "intake", "model"), "torsion", None)])
+        self.assertEqual(self.keys("valve train intake"), [(("valve", "intake", "model"), "quasi_static", "full")])
+        self.assertEqual(self.keys("exhaust bending"), [])
+        self.assertEqual(self.keys("balance by other cylinders"), [])  # the scene has no [engine]
+        self.assertEqual(self.keys("gravity"), [(("gravity_m_s2",), 0.0, 9.81)])
+
+
+class Onset(unittest.TestCase):
+    def test_the_first_of_two_peaks_counts_whichever_is_higher(self):
+        time = np.arange(-0.005, 0.01, 1e-5)
+        bump = lambda at: np.maximum(0.0, 1.0 - np.abs(time - at) / 1e-4)  # noqa: E731
+        for second in (0.9, 1.1):
+            values = -bump(0.5e-3) + second * bump(3e-3)
+            level = 0.5 * max(1.0, second)
+            self.assertAlmostEqual(slap.onset(time, values, 0.5), 0.4e-3 + level * 1e-4, delta=1e-9)
+            self.assertAlmostEqual(slap.onset(time, values, 1.0), 0.5e-3 if second < 1.0 else 3e-3, delta=1e-9)
+        self.assertEqual(slap.peak(time, -bump(0.5e-3) + 1.1 * bump(3e-3))[0], time[np.argmin(np.abs(time - 3e-3))])
+
+    def test_its_part_has_a_range(self):
+        for part in (0.0, 1.1, -1):
+            with self.assertRaisesRegex(BadArtefact, "part: found .*, expected a number above 0, at most 1"):
+                quantities.own_keys("study.toml: quantity[0]", {"take": "slap_time", "part": part}, {"take"})
 
 
 class Values(unittest.TestCase):

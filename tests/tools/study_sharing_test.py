@@ -2,6 +2,8 @@
 """`clatter study`: what variants have in common is made once, also after an interruption, by launchers and in two studies."""
 import fcntl
 import os
+import shutil
+import signal
 import subprocess
 import time
 import unittest
@@ -108,6 +110,12 @@ class Sharing(StandIns):
         self.assertEqual({one.split(".")[1] for one in self.made}, {"run", "field"})
 
     def test_an_interrupted_study_leaves_nothing_half_made_and_resumes(self):
+        for number in (signal.SIGTERM, signal.SIGINT):
+            with self.subTest(signal=number.name):
+                shutil.rmtree(self.folder / "study", ignore_errors=True)
+                self.interrupt(number)
+
+    def interrupt(self, number):
         for name in ("wait", "waiting"):
             self.addCleanup((self.given / name).unlink, missing_ok=True)
         (self.given / "wait").touch()
@@ -115,14 +123,32 @@ class Sharing(StandIns):
         until = time.monotonic() + 60.0
         while not (self.given / "waiting").exists() and time.monotonic() < until:
             time.sleep(0.02)
-        process.terminate()
+        stage = int((self.given / "waiting").read_text())
+        process.send_signal(number)
         self.assertEqual(process.wait(timeout=30), 3)
+        self.assertFalse(is_running(stage))
         self.assertEqual([path.name for path in self.folder.glob("study/made/*/*.run.h5*") if not path.is_symlink()], [])
         before = self.calls()
         self.assertIn("part.rom.h5 ", before)
-        (self.given / "wait").unlink()
+        for name in ("wait", "waiting"):
+            (self.given / name).unlink()
         self.study()
         self.assertEqual(len(before) + len(self.made), 14)
+
+    def test_seconds_before_an_interruption_count_where_the_stage_went_on_from_them(self):
+        self.write("study.toml", SMALL)
+        self.study()
+        for goes_on in (True, False):
+            folder = next((self.folder / "study/made").glob("slap.run-*"))
+            (folder / "slap.run.h5").unlink()
+            (folder / ".times.part").write_text("0m0.010000s 0m0.010000s\n1m40.000000s 0m0.500000s\n")
+            if goes_on:
+                (folder / "slap.run.h5.checkpoint").touch()
+            study = self.study()
+            self.assertIn("slap.run.h5", self.made)
+            spent = max(stage.processor for stages in study.stages for stage in stages if stage.folder == folder.name)
+            self.assertEqual(100.5 < spent < 110.0 if goes_on else spent < 10.0, True, spent)
+            (folder / "slap.run.h5.checkpoint").unlink(missing_ok=True)
 
     def test_two_studies_do_not_work_in_one_folder(self):
         (self.folder / "study").mkdir()
@@ -144,6 +170,15 @@ class Sharing(StandIns):
         (self.root / "common.run.toml").write_text(f"[accuracy]\ntau = {TAU}")
         self.write("slap.run.toml", 'base = "../common.run.toml"\nrom = "part.rom.h5"')
         self.assertAlmostEqual(self.study().values[0][0].number(), exact(), delta=1e-12)
+
+
+def is_running(process):
+    """Whether a process runs; one that has ended but was not waited for by its parent does not."""
+    try:
+        with open(f"/proc/{process}/stat", encoding="utf-8") as stat:
+            return stat.read().rpartition(")")[2].split()[0] != "Z"
+    except (FileNotFoundError, ProcessLookupError):
+        return False
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ for file in $([[ $0 != *dynamics ]] || sed -nE 's/^(base|rom) = "(.*)"/\\2/p' *.
 done
 kind=${output%.h5}; kind=${kind##*.}
 [ $kind = run ] && : ${made[both]:=0.0}
-[ $kind = run ] && [ -e $GIVEN/wait ] && { touch $GIVEN/waiting; exec sleep 60; }
+[ $kind = run ] && [ -e $GIVEN/wait ] && { echo $$ > $GIVEN/waiting.part; mv $GIVEN/waiting.part $GIVEN/waiting; exec sleep 60; }
 [ $kind = run ] && [ -e $GIVEN/fail ] && { echo told to fail >&2; exit 2; }
 [ "${made[h]}" = 20.0 ] && { echo too coarse >&2; exit 2; }
 of="h=${made[h]} n=${made[n]:--} tau=${made[tau]:--} both=${made[both]:--}"

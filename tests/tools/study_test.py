@@ -11,7 +11,7 @@ import numpy as np
 from study_stand_ins import H, N, SMALL, STUDY, TAU, StandIns, exact, write_given
 
 from clatter_tools.artefact import BadArtefact
-from clatter_tools.study import effects, findings, proposal, run
+from clatter_tools.study import effect_keys, effects, effects_page, findings, markdown, proposal, run
 
 
 class Numbers(StandIns):
@@ -44,6 +44,8 @@ class Numbers(StandIns):
                       f"{100 * fine:.2g} % costs 40 s (0.05); below 2 % cell size rules; 126 s of other stages", said)
         self.assertIn("tolerance, of the part: no value changes it", said)
         self.assertIn("sum / run 1.00", said)
+        self.assertIn("value: the budget is closed, sum over run 1.00", said)
+        self.assertNotIn("does not converge", said)
         with open(self.folder / "study/study.csv", newline="") as stream:
             rows = {row["variant"]: row for row in csv.DictReader(stream)}
         self.assertAlmostEqual(float(rows["all refined"]["value [N]"]), exact(0.5, 0.05, 8), delta=1e-6)
@@ -70,7 +72,8 @@ class Proposals(StandIns):
             best, _ = proposal.propose(study, 0, within / reference, seconds)
             h, tau, n = (value[0] for value in best.values)
             write_given(self.given, 0.0, [h], [None, n], [None, tau])
-            error, spent = proposal.prove(study, 0, best, 2)
+            proof = proposal.prove(study, 0, best, 2)
+            error, spent = proof.error, proof.seconds
             self.assertAlmostEqual(error, abs(exact(h, tau, n) - reference) / reference, delta=1e-12)
             self.assertLessEqual(error * reference, within)
             self.assertLessEqual(spent, seconds)
@@ -106,6 +109,32 @@ class Interaction(StandIns):
         open_ = not 0.5 <= sums / difference <= 2.0
         self.assertEqual("NOT CLOSED" in "\n".join(findings.report(study)), open_)
 
+    def test_a_proposal_is_proved_in_a_scene_that_the_study_has_not_seen(self):
+        study = self.study()
+        best, _ = proposal.propose(study, 0, 0.1)
+        h, tau, n = (value[0] for value in best.values)
+        for both in (0.0, self.both):
+            write_given(self.given, both, [h], [None, n], [None, tau])
+        proof = proposal.prove(study, 0, best, 2, proposal.elsewhere(study.plan, ["slap.run.toml:more.both=0.0"]))
+        reference = exact(0.5, 0.05, 8) - sum(line.errors[-1].number() for line in study.lines[0].values())
+        self.assertAlmostEqual(proof.error, abs(exact(h, tau, n) - reference) / reference, delta=1e-12)
+        # The run without the effect is three seconds shorter.
+        base = study.cost(run.BASE, 0)
+        self.assertAlmostEqual(proof.pace, (base - 3.0) / base, delta=1e-12)
+        for text, said in (("slap.run.toml:more.both", "expected a key of a file and its value"), ("more.both=1", "found key more.both, expected a file"),
+                           ("slap.run.toml:accuracy.tau=1", "which is a setting of")):
+            with self.assertRaisesRegex(BadArtefact, said):
+                proposal.elsewhere(study.plan, [text])
+
+    def test_proofs_are_kept_once_for_each_request_and_scene(self):
+        study = self.study()
+        row = ["value 1 %", "the study's", "h 2", "1 %, 10 s", "2 %, 10 s", "2.00", "1.00"]
+        for last in ("1.00", "1.10"):
+            proposal.keep_proof(study.plan, [*row[:-1], last])
+        proposal.keep_proof(study.plan, [row[0], "elsewhere", *row[2:]])
+        self.assertEqual([one[-1] for one in proposal.read_proofs(study.plan)[1:]], ["1.10", "1.00"])
+        self.assertEqual(len(markdown.proofs(study.plan)), 4)
+
     def test_an_effect_is_switched_off_and_its_change_and_cost_are_known(self):
         self.write("study.toml", STUDY[STUDY.index("[[quantity]]"):] + """
             [[effect]]
@@ -113,7 +142,7 @@ class Interaction(StandIns):
             key = "slap.run.toml:accuracy.tau"
             off = 0.1
             """)
-        with unittest.mock.patch.dict(effects.KNOWN, {"both": [("more.both", 0.0, None)], "rings": [("more.both", 0.0, None)]}):
+        with unittest.mock.patch.dict(effect_keys.PLAIN, {"both": [("more.both", 0.0, None)], "rings": [("more.both", 0.0, None)]}):
             found = effects.make(self.folder / "study.toml", 2)
         self.assertEqual([(one.name, one.to) for one in found.switches], [("both", "off"), ("tolerance as an effect", "off")])
         base = exact(both=-40.0)
@@ -126,13 +155,21 @@ class Interaction(StandIns):
         self.assertEqual(lines[0], f"both: value {100 * (exact() / base - 1):+.2g} %, of the part +0 %, 23 % of the time: keep")
         found.plan.quantities[0].small = 1.0
         self.assertTrue(effects.report(found)[0].endswith("leave out"), effects.report(found)[0])
-        self.assertIn("without it 75 % more time: costs nothing, keep", effects.report(found)[1])
+        self.assertIn("without it 75 % more time: costs little, keep", effects.report(found)[1])
         self.assertIn("both,off,", effects.write(found).read_text())
+        self.assertIn("<td>both</td><td>off</td>", effects_page.write(found).read_text())
+        self.assertIn("| both | off |", markdown.effects(found)[2])
+        self.assertEqual(markdown.few_effects(found, ["value"])[0], "| effect | switched | value | its share of the time | advice |")
+        # Without a value of one quantity it is kept, without any it could not be run.
+        found.switches[0].changes[1] = None
+        self.assertTrue(effects.report(found)[0].endswith("keep, not known with it off: of the part"), effects.report(found)[0])
+        found.switches[0].changes[0] = None
+        self.assertTrue(effects.report(found)[0].endswith("cannot be switched off here: see what its stage said"))
 
     def test_only_the_scene_runs_again_without_an_effect(self):
         self.write("study.toml", STUDY[STUDY.index("[[quantity]]"):])
         self.calls()
-        with unittest.mock.patch.dict(effects.KNOWN, {"both": [("more.both", 0.0, None)]}):
+        with unittest.mock.patch.dict(effect_keys.PLAIN, {"both": [("more.both", 0.0, None)]}):
             effects.make(self.folder / "study.toml", 2)
         made = [line.split(" ")[0] for line in self.calls()]
         self.assertEqual(sorted(made), sorted(["part.mesh.h5", "part.fe.h5", "part.rom.h5", *2 * ["slap.run.h5", "slap.field.h5"]]))

@@ -14,7 +14,7 @@ import numpy as np
 
 from . import motored_cycle
 from .artefact import BadArtefact
-from .motored_cycle import DEGREE, MotoredCycle
+from .motored_cycle import DEGREE
 
 COMPLETE = 6.908  # a of Wiebe's function: 99.9 % are burnt at the end of the duration
 PANELS = 64       # of the quadrature over the shortest duration, with two Gauss points each

@@ -38,6 +38,17 @@ def peak(time, values):
     return time[top], values[top]
 
 
+def onset(time, values, part):
+    """The first instant [s] around firing TDC at which |acceleration| reaches a part, from 0 to 1, of its largest value there; between samples on the
+    line through them. Of several peaks of about the same height the largest may be another one after a small change: the first of them is not."""
+    time, values = around_firing(time, np.abs(values))
+    level = part * np.max(values)
+    first = int(np.argmax(values >= level))
+    if first == 0 or values[first] == values[first - 1]:
+        return time[first]
+    return time[first - 1] + (time[first] - time[first - 1]) * (level - values[first - 1]) / (values[first] - values[first - 1])
+
+
 def rung_out(time, values):
     """When the running rms has fallen to QUIET of its peak around firing TDC [s]; nan if it never does."""
     count = max(1, round(SMOOTH_S / (time[1] - time[0])))

@@ -21,7 +21,7 @@ FRAGMENT = """# Written by `clatter sweep`: the runs and fields of {folder}/, fo
 """
 DEPENDENCIES = "-include $(wildcard {folder}/*.h5.d)\n"
 FIELDS = """{targets}: {folder}/%.field.h5: {folder}/%.run.h5 {field} $(clatter_recover)
-	$(CLATTER_LAUNCH) $(clatter_recover) $< -c {field} -o $@ --depfile $@.d $(CLATTER_FLAGS)
+	$(call clatter_run,recover) $< -c {field} -o $@ --depfile $@.d $(CLATTER_FLAGS)
 """
 
 

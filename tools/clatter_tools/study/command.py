@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The command `clatter study`."""
 import argparse
+import sys
 
 from .. import study as study_package
 from ..artefact import BadArtefact
-from . import effects, findings, proposal, quantities, results, run
+from . import effects, findings, markdown, proposal, quantities, results, run
 
 
 def add_arguments(command):
@@ -16,27 +17,32 @@ def add_arguments(command):
     command.add_argument("-j", "--jobs", type=int, default=1, help="number of stages that run in parallel")
     command.add_argument("--effects", action="store_true", help="switch each effect of the scenes off or on instead: what it changes, what it costs")
     command.add_argument("--within", metavar="'QUANTITY ERROR'", help="propose the cheapest settings for an error, as \"sound power 0.5\" or \"height 2 %%\", and prove them by a run")
+    command.add_argument("--at", action="append", default=[], metavar="FILE:KEY=VALUE", help="of --within: prove them where this key has another value, as slap.run.toml:engine.speed_rpm=1500")
+    command.add_argument("--markdown", action="store_true", help="print the tables as Markdown, for a document")
     command.add_argument("--seconds", type=float, default=float("inf"), metavar="S", help="of --within: at most so many seconds")
 
 
 def write_study(options):
-    """`clatter study`: makes what is missing, prints tables and sentences, writes study.h5, CSV and page; of effects sentences and CSV."""
+    """`clatter study`: makes what is missing, prints tables and sentences, writes study.h5, CSV and page; of effects sentences, CSV and page."""
     jobs = max(1, options.jobs)
     if options.effects and options.within:
         raise BadArtefact("--within: found it beside --effects, expected one of them")
     if options.seconds != float("inf") and not (options.within and options.seconds > 0.0):
         raise BadArtefact(f"--seconds: found {options.seconds:g}, expected a positive number, and --within")
+    if options.at and not options.within:
+        raise BadArtefact(f"--at: found {options.at[0]} without --within, expected both")
     if options.effects:
         found = effects.make(options.study, jobs)
-        print("\n".join(effects.report(found)))
-        print(f"\n{effects.write(found)}")
-        return
-    study = run.make(options.study, jobs)
-    if options.within:
-        proposal.answer(study, options.within, options.seconds, jobs)
-        return
-    print("\n".join(findings.report(study)))
-    paths = results.write(study)
-    from . import page  # which loads matplotlib
-    paths.append(page.write(study))
-    print(f"\n{', '.join(map(str, paths))}")
+        print("\n".join(markdown.effects(found) if options.markdown else effects.report(found)))
+        from . import effects_page  # as page below
+        paths = [effects.write(found), effects_page.write(found)]
+    else:
+        study = run.make(options.study, jobs)
+        if options.within:
+            proposal.answer(study, options.within, options.seconds, jobs, options.at)
+            return
+        print("\n".join([*markdown.study(study), "", *markdown.proofs(study.plan)] if options.markdown else findings.report(study)))
+        paths = results.write(study)
+        from . import page  # which loads matplotlib
+        paths.append(page.write(study))
+    print(f"\n{', '.join(map(str, paths))}", file=sys.stderr if options.markdown else sys.stdout)

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter study --effects`: each effect of a scene switched off, or on where a default is enough, what that changes and what it saves.
 
-Which effects a scene has, and whether they are on, is what its run says (group effects). KNOWN has the keys that switch them; others are named
-in the study file:
+Which effects a scene has, and whether they are on, is what its run says (group effects). effect_keys.py has the keys that switch them, in all
+cylinders at once; others are named in the study file:
 
     [[effect]]
-    name = "friction in the joints"
-    key = "drive.run.toml:chain.chain.joint.friction"
-    off = 0.0                          # and on = value for an effect that is off
+    name = "friction of the guides"
+    keys = ["drive.run.toml:chain.chain.over.1.contact.friction", "drive.run.toml:chain.chain.over.4.contact.friction"]   # or key = "..."
+    off = 0.0                          # and on = value for an effect that is off; [..] with a value for each key
+
+Quantities that need what an effect switches off (the sound of a block that becomes rigid) are not known without it: it is kept.
 """
 import copy
 import csv
@@ -17,27 +19,11 @@ import re
 
 from .. import artefact
 from ..artefact import text
-from . import plan, results, run, toml_text
+from . import effect_keys, plan, results, run, toml_text
 from .findings import digits
 from .run import BASE
 
-# Effect of a run: [(key of the scene, value that switches off, on; None: it cannot be switched so)].
-KNOWN = {
-    "elastic piston": [("piston.model", "rigid", "elastic")],
-    "balance by other cylinders": [("engine.balanced", False, None)],
-    "oil film": [("contact.lubrication", "none", "film")],
-    "cavitation": [("contact.cavitation", False, True)],
-    "viscosity over pressure": [("contact.oil.pressure_coefficient_1_gpa", 0.0, None)],
-    "friction factors": [("contact.friction_factors", False, None)],
-    "gap around the entire skirt": [("contact.span", "pads", None)],
-    "grooves and windows": [("contact.recess", [], None)],
-    "asperity contact": [("contact.asperities", False, True)],
-    "damping of the contact": [("contact.asperity_loss_factor", 0.0, 0.05)],
-    "friction": [("contact.friction", False, True)],
-    "shapes of bore and skirt": [("contact.bore_shape", [], None), ("contact.skirt_shape", [], None)],
-    "gravity": [("gravity_m_s2", 0.0, 9.81)],
-}
-SAVES = 0.02  # of the seconds: less is no reason to leave an effect out
+SAVES = 0.05  # of the seconds: less is no reason to leave an effect out, and within what seconds vary by
 
 
 @dataclasses.dataclass
@@ -55,23 +41,34 @@ def switches_of(wanted, pipeline, states):
     """The Switches of a scene's effects; `states`: {scene file: {effect: "on" or "off"}}."""
     found = []
     for file, effects in states.items():
-        for name, state in effects.items():
-            values = [(key.split("."), off if state == "on" else on) for key, off, on in KNOWN.get(name, [])]
+        value_of = lambda path, file=file: pipeline.base_value(file, path)  # noqa: E731
+        for name, state in plain_states(effects, value_of).items():
+            values = [(path, off if state == "on" else on) for path, off, on in effect_keys.keys_of(name, value_of)]
             if values and all(value is not None for _, value in values):
-                found.append(switch(wanted, pipeline, name, file, "off" if state == "on" else "on", values))
+                found.append(switch(wanted, pipeline, name, "off" if state == "on" else "on", [((file, path), value) for path, value in values]))
     for one in wanted.effects:
-        file, path = one.key
-        value = pipeline.base_value(file, path)
-        to = "on" if one.off is None or (one.on is not None and value == one.off) else "off"
-        found.append(switch(wanted, pipeline, one.name, file, to, [(path, one.on if to == "on" else one.off)]))
+        values = [pipeline.base_value(*key) for key in one.keys]
+        to = "on" if one.off is None or (one.on is not None and values == one.off) else "off"
+        found.append(switch(wanted, pipeline, one.name, to, list(zip(one.keys, one.on if to == "on" else one.off))))
     return found
 
 
-def switch(wanted, pipeline, name, file, to, values):
-    tables = copy.deepcopy(pipeline.table(file))
-    for path, value in values:
-        toml_text.set_value(f"{wanted.path}: {name}: {file}", tables, path, value)
-    return Switch(name, to, {file: tables})
+def plain_states(effects, value_of):
+    """{effect: "on" or "off"} with one entry for all cylinders: "on" where it is in one of them."""
+    cylinders, found = effect_keys.cylinders_of(value_of), {}
+    for name, state in effects.items():
+        plain = effect_keys.plain_name(name, cylinders)
+        found[plain] = "on" if "on" in (state, found.get(plain)) else state
+    return found
+
+
+def switch(wanted, pipeline, name, to, values):
+    """A Switch by [((file, path of keys), value)]."""
+    tables = {}
+    for (file, path), value in values:
+        own = tables.setdefault(file, copy.deepcopy(pipeline.table(file)))
+        toml_text.set_value(f"{wanted.path}: {name}: {file}", own, path, value)
+    return Switch(name, to, tables)
 
 
 def states_of(made, own):
@@ -139,14 +136,17 @@ def change_text(effects, quantity, change):
 
 def advice(effects, one):
     """"leave out", "keep", "switch on" or "leave off"; what could not be run is said."""
-    if any(change is None for change in one.changes):
+    missing = [own.name for own, change in zip(effects.plan.quantities, one.changes) if change is None]
+    if len(missing) == len(one.changes):
         return f"cannot be switched {one.to} here: see what its stage said"
-    matters = any(effects.scaled(k, change.size()) > effects.small(k) for k, change in enumerate(one.changes))
+    matters = any(effects.scaled(k, change.size()) > effects.small(k) for k, change in enumerate(one.changes) if change is not None)
+    if missing:
+        return f"{'keep' if one.to == 'off' else 'leave off'}, not known with it {one.to}: {', '.join(missing)}"
     if one.to == "on":
         return "switch on" if matters else "leave off"
     if matters:
         return "keep"
-    return "leave out" if one.saved > SAVES else "costs nothing, keep"
+    return "leave out" if one.saved > SAVES else "costs little, keep"
 
 
 def sentence(effects, one):
@@ -165,8 +165,18 @@ def report(effects):
     return [sentence(effects, one) for one in effects.switches]
 
 
+def rows(effects):
+    """What the sentences say as a table: rows of cells, the first is the head."""
+    found = [["effect", "switched", *(own.name for own in effects.plan.quantities), "its share of the time", "advice"]]
+    for one in effects.switches:
+        changes = ["-" if change is None else change_text(effects, k, change) for k, change in enumerate(one.changes)]
+        share = one.saved if one.to == "off" else -one.saved
+        found.append([one.name, one.to, *changes, f"{100.0 * share:.0f} %" if math.isfinite(share) else "-", advice(effects, one)])
+    return found
+
+
 def write(effects):
-    """effects.csv in the study's folder."""
+    """effects.csv in the study's folder; returns its path."""
     def fill(part):
         with open(part, "w", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream)

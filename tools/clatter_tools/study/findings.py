@@ -3,11 +3,13 @@
 import math
 
 from ..slaps import table
+from . import convergence
 from .run import BASE
 
 SHOWN = 3       # points of a sentence
 CLOSED = 2.0    # factor within which a budget is closed
 NOTHING = 1e-6  # of a quantity: differences that are no effect of a setting
+PART = 0.1      # of the budget: smaller changes along a setting are not called unsettled
 
 
 def error_text(study, quantity, error):
@@ -72,6 +74,47 @@ def sentences(study):
     return [sentence(study, quantity, number) for quantity in range(len(study.plan.quantities)) for number in range(len(study.plan.settings))]
 
 
+def front(study, quantity):
+    """Variants that no other one beats in both seconds and total error, by rising seconds."""
+    costs = [study.cost(k, quantity) for k in range(len(study.variants))]
+    return convergence.pareto(costs, [study.error(quantity, k) for k in range(len(study.variants))])
+
+
+def unsettled(study, quantity):
+    """[(number of the setting, last change, the change before)] along which a quantity does not converge: the last refinement changes it by more than
+    the one before."""
+    budget, found = study.budgets[quantity], []
+    largest = max([part.size() for _, part in budget.parts] + ([] if budget.refined is None else [budget.refined.size()]), default=0.0)
+    for number, line in study.lines[quantity].items():
+        changes = [one.minus(other).size() for one, other in zip(line.errors, line.errors[1:])]
+        if len(changes) > 1 and changes[-1] > changes[-2] and changes[-1] > PART * largest and changes[-1] > NOTHING * study.references[quantity].size():
+            found.append((number, changes[-1], changes[-2]))
+    return found
+
+
+def verdict(study, quantity):
+    """Whether the budget of a quantity is closed, and along which settings it does not converge."""
+    own, budget = study.plan.quantities[quantity], study.budgets[quantity]
+    said = [f"does not converge along {study.plan.settings[number].name} (the last refinement changes it by {error_text(study, quantity, study.scaled(quantity, last))}, "
+            f"the one before by {error_text(study, quantity, study.scaled(quantity, before))})" for number, last, before in unsettled(study, quantity)]
+    if budget.refined is not None:
+        ratio = budget.closure()
+        small = own.small is not None and max(study.scaled(quantity, one.size()) for one in (budget.sum, budget.refined)) <= own.small
+        if not math.isfinite(ratio):
+            said.insert(0, "the run with everything refined shows no error")
+        elif 1.0 / CLOSED <= ratio <= CLOSED:
+            said.insert(0, f"the budget is closed, sum over run {ratio:.2f}")
+        elif small:
+            said.insert(0, f"sum and run are both within {error_text(study, quantity, own.small)}")
+        else:
+            said.insert(0, f"the budget is open, sum over run {ratio:.2f}: {'' if said else 'the settings act on each other or the quantity jumps'}".rstrip(": "))
+    return f"{own.name}: {'; it '.join(said) or 'no run with everything refined'}"
+
+
+def verdicts(study):
+    return [verdict(study, quantity) for quantity in range(len(study.plan.quantities))]
+
+
 def order_text(line):
     """"2.0 (Richardson)" or "finest"."""
     known = [one for one in line.orders if math.isfinite(one)]
@@ -131,4 +174,4 @@ def report(study):
     for quantity in range(len(study.plan.quantities)):
         for rows in (variant_rows(study, quantity), budget_rows(study, quantity)):
             lines += [*table(rows[0], rows[1:]), ""]
-    return [*lines, *sentences(study)]
+    return [*lines, *sentences(study), "", *verdicts(study)]

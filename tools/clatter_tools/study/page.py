@@ -45,9 +45,13 @@ def write(study):
                             f'<div class="card">{rows_of(findings.budget_rows(study, quantity))}</div>'
                             f'<div class="card">{rows_of(findings.variant_rows(study, quantity))}</div></div>'))
     body.append(section("Cost of the stages of the base", f'<div class="card">{rows_of(stage_cells(study))}</div>'))
-    text = FRAME.format(title=html.escape(f"Study of {study.plan.pipeline.resolve().name.replace('_', ' ')}"),
-                        style=(PAGE / "page.css").read_text(encoding="utf-8"), body="\n".join(body))
+    text = page_of(f"Study of {study.plan.pipeline.resolve().name.replace('_', ' ')}", body)
     return results.whole(study.plan.output / "study.html", lambda part: part.write_text(text, encoding="utf-8"))
+
+
+def page_of(title, body):
+    """The text of a page of sections."""
+    return FRAME.format(title=html.escape(title), style=(PAGE / "page.css").read_text(encoding="utf-8"), body="\n".join(body))
 
 
 def section(title, body):
@@ -55,7 +59,7 @@ def section(title, body):
 
 
 def summary(study):
-    sentences = "".join(f"<li>{html.escape(one)}.</li>" for one in findings.sentences(study))
+    sentences = "".join(f"<li>{html.escape(one)}.</li>" for one in [*findings.sentences(study), *findings.verdicts(study)])
     return f'<div class="card"><ul>{sentences}</ul></div>'
 
 

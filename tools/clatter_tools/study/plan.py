@@ -11,7 +11,7 @@ MOST_VALUES = 100
 REFERENCES = ("auto", "finest", "richardson")
 COSTS = ("seconds", "processor")
 TOP = {"pipeline", "check", "reuse", "cost", "setting", "quantity", "effect"}
-EFFECT = {"name", "key", "off", "on"}
+EFFECT = {"name", "key", "keys", "off", "on"}
 SETTING = {"name", "unit", "key", "keys", "values", "base", "reference", "sizes"}
 
 
@@ -33,9 +33,9 @@ class Setting:
 
 @dataclasses.dataclass
 class Effect:
-    """key: (file, path of keys); off, on: its values; None: it cannot be switched so."""
+    """keys: [(file, path of keys)]; off, on: lists of their values; None: it cannot be switched so."""
     name: str
-    key: tuple
+    keys: list
     off: object
     on: object
 
@@ -127,12 +127,7 @@ def text_of(where, entry, key, default=None):
 def setting(where, entry):
     check_keys(where, entry, SETTING)
     name, unit = text_of(where, entry, "name"), text_of(where, entry, "unit", "")
-    if ("key" in entry) == ("keys" in entry):
-        raise BadArtefact(f"{where}: found {'both' if 'key' in entry else 'neither'} key and keys, expected one of them")
-    texts = [entry["key"]] if "key" in entry else entry["keys"]
-    if not isinstance(texts, list) or not texts or not all(isinstance(one, str) for one in texts):
-        raise BadArtefact(f"{where}.keys: found {texts!r}, expected texts such as slap.run.toml:accuracy.tolerance")
-    keys = [key_of(where, one) for one in texts]
+    keys = keys_of(where, entry)
     values = entry.get("values")
     if not isinstance(values, list) or not 1 <= len(values) <= MOST_VALUES:
         raise BadArtefact(f"{where}.values: found {values!r:.80}, expected 1 to {MOST_VALUES} values from coarse to fine")
@@ -157,10 +152,27 @@ def setting(where, entry):
 def effect(where, entry):
     """A table [[effect]]."""
     check_keys(where, entry, EFFECT)
-    key = key_of(where, text_of(where, entry, "key"))
+    keys = keys_of(where, entry)
     if "off" not in entry and "on" not in entry:
         raise BadArtefact(f"{where}: found neither off nor on, expected the value that switches the effect off, on, or both")
-    return Effect(text_of(where, entry, "name"), key, entry.get("off"), entry.get("on"))
+    return Effect(text_of(where, entry, "name"), keys, *(switch_values(f"{where}.{to}", entry.get(to), len(keys)) for to in ("off", "on")))
+
+
+def switch_values(where, value, count):
+    """A value for each key of an effect, of any kind for a single key; None where there is none."""
+    if value is None or count == 1:
+        return None if value is None else [value]
+    return list(value_of(where, value, count))
+
+
+def keys_of(where, entry):
+    """[(file, path of keys)] of `key` or `keys`."""
+    if ("key" in entry) == ("keys" in entry):
+        raise BadArtefact(f"{where}: found {'both' if 'key' in entry else 'neither'} key and keys, expected one of them")
+    texts = [entry["key"]] if "key" in entry else entry["keys"]
+    if not isinstance(texts, list) or not texts or not all(isinstance(one, str) for one in texts):
+        raise BadArtefact(f"{where}.keys: found {texts!r}, expected texts such as slap.run.toml:accuracy.tolerance")
+    return [key_of(where, one) for one in texts]
 
 
 def key_of(where, text):

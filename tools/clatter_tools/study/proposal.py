@@ -5,13 +5,19 @@ Model: the differences from the references of the settings add up, and the secon
 setting. Between two tested values of a setting with step sizes there is one more candidate in the middle (of logarithms), with interpolated
 difference and factors. A finest value that is itself the reference counts with half its difference from the next coarser one.
 Settings are chosen by the sum of the magnitudes; what is expected is the magnitude of the sum.
+
+--at changes keys of the pipeline for the proof: another speed, load or clearance than that of the study, whose errors are then expected there too, and
+whose seconds in proportion to those of its base. The error is that from a run there with everything refined.
+Each proof is a row of proofs.csv in the study's folder; --markdown shows them.
 """
+import csv
 import dataclasses
 import itertools
 import math
+import tomllib
 
 from ..artefact import BadArtefact
-from . import findings, plan, run, variants
+from . import findings, plan, results, run, variants
 from .quantities import Value
 from .run import BASE
 
@@ -129,19 +135,54 @@ def proposal_of(study, quantity, found):
     return Proposal(tuple(one.value for one in chosen), study.scaled(quantity, total.size()), most, spent)
 
 
-def prove(study, quantity, proposal, jobs):
-    """(error, seconds) of a run with the proposed settings; Failed where it cannot be made."""
+@dataclasses.dataclass
+class Proof:
+    """Of a run: its error in the units of errors, its seconds, and those of the base there over those of the study's base."""
+    error: float
+    seconds: float
+    pace: float
+
+
+def prove(study, quantity, proposal, jobs, at=()):
+    """The Proof of a run with the proposed settings, `at`: [((file, path of keys), value)] of another scene; Failed where it cannot be made."""
     wanted, base = study.plan, study.variants[BASE].values
     pipeline = run.pipeline_of(wanted)
     made = run.Making(wanted, pipeline)
-    variant = variants.Variant("proposed", proposal.values)
-    artefacts = [made.add({}), made.add(variants.changed_tables(wanted, pipeline, base, variant))]
-    made.make(["base", variant.folder], artefacts, jobs)
-    value = made.values(artefacts[1])[quantity]
-    if value is None:
+    chosen = [variants.Variant("base", base), variants.Variant("proposed", proposal.values)]
+    if at:
+        chosen.append(variants.Variant("refined", tuple(setting.values[-1] for setting in wanted.settings)))
+    artefacts = [made.add(variants.changed_tables(wanted, pipeline, base, one, at)) for one in chosen]
+    made.make([f"{one.folder}-there" if at else one.folder for one in chosen], artefacts, jobs)
+    values = [made.values(own)[quantity] for own in artefacts]
+    if any(value is None for value in values):
         raise run.Failed(f"{wanted.path}: the proposed settings cannot be run: see what the stage says above")
-    error = study.scaled(quantity, value.minus(study.references[quantity]).size())
-    return error, run.cost_of(wanted, made.stages(artefacts[1]), quantity)
+    reference = study.references[quantity]
+    if at:
+        reference = values[2]
+        for line in study.lines[quantity].values():
+            reference = reference.minus(line.errors[-1])
+    error = values[1].minus(reference).size()
+    scale = reference.size() if wanted.quantities[quantity].relative and reference.size() > 0.0 else 1.0
+    seconds = [run.cost_of(wanted, made.stages(own), quantity) for own in artefacts]
+    return Proof(error / scale, seconds[1], seconds[0] / study.cost(BASE, quantity) if at else 1.0)
+
+
+def elsewhere(wanted, texts):
+    """[((file, path of keys), value)] of texts such as slap.run.toml:engine.speed_rpm=1500."""
+    found = []
+    for one in texts:
+        key, equal, value = one.partition("=")
+        try:
+            parsed = tomllib.loads(f"value = {value}")["value"] if equal else None
+        except tomllib.TOMLDecodeError:
+            parsed = None
+        if parsed is None:
+            raise BadArtefact(f"--at: found {one!r}, expected a key of a file and its value, as slap.run.toml:engine.speed_rpm=1500")
+        own = plan.key_of("--at", key.strip())
+        if any(own in setting.keys for setting in wanted.settings):
+            raise BadArtefact(f"--at: found {key.strip()}, which is a setting of {wanted.path}, expected another key")
+        found.append((own, parsed))
+    return found
 
 
 def requested(study, text):
@@ -168,15 +209,44 @@ def report(study, quantity, proposal):
             f"{findings.error_text(study, quantity, proposal.most)}), {findings.seconds_text(proposal.seconds)}"]
 
 
-def answer(study, text, seconds, jobs):
-    """`clatter study --within`: prints the proposal and its proof."""
+def answer(study, text, seconds, jobs, at=()):
+    """`clatter study --within`: prints the proposal and its proof; `at`: texts of --at."""
     quantity, within = requested(study, text)
+    there = elsewhere(study.plan, at)
     best, least = propose(study, quantity, within, seconds)
     if best is None:
         print("\n".join(["the nearest:", *report(study, quantity, least)]))
         raise run.Failed(f"{study.plan.path}: no settings of this study are within {findings.error_text(study, quantity, within)}"
                          f"{f' and {seconds:g} s' if math.isfinite(seconds) else ''}: add finer values, or ask for less")
     print("\n".join(report(study, quantity, best)), flush=True)
-    error, spent = prove(study, quantity, best, jobs)
-    print(f"the run: {findings.error_text(study, quantity, error)}, {findings.seconds_text(spent)}"
-          f"{'' if error <= within else ': MORE THAN REQUESTED'}")
+    proof = prove(study, quantity, best, jobs, there)
+    expected = best.seconds * proof.pace
+    print(f"the run{', ' if at else ''}{', '.join(at)}: {findings.error_text(study, quantity, proof.error)}, {findings.seconds_text(proof.seconds)}"
+          f"{f' of {findings.seconds_text(expected)} expected there' if at else ''}{'' if proof.error <= within else ': MORE THAN REQUESTED'}")
+    keep_proof(study.plan, [text, ", ".join(at) or "the study's", ", ".join(f"{setting.name} {setting.label(value)}" for setting, value in zip(study.plan.settings, best.values)),
+                            f"{findings.error_text(study, quantity, best.expected)} (at most {findings.error_text(study, quantity, best.most)}), {findings.seconds_text(expected)}",
+                            f"{findings.error_text(study, quantity, proof.error)}, {findings.seconds_text(proof.seconds)}",
+                            f"{proof.error / best.expected:.2f}" if best.expected > 0.0 else "-", f"{proof.seconds / expected:.2f}"])
+
+
+PROOFS = ["request", "scene", "proposed", "expected", "the run", "error over expected", "seconds over expected"]
+
+
+def read_proofs(wanted):
+    """Rows of proofs.csv, the first is the head."""
+    path = wanted.output / "proofs.csv"
+    if not path.exists():
+        return [PROOFS]
+    with open(path, newline="", encoding="utf-8") as stream:
+        return [PROOFS, *list(csv.reader(stream))[1:]]
+
+
+def keep_proof(wanted, row):
+    """Adds a row to proofs.csv, in place of one of the same request and scene; returns its path."""
+    rows = [one for one in read_proofs(wanted) if one[:2] != row[:2]] + [row]
+
+    def fill(part):
+        with open(part, "w", newline="", encoding="utf-8") as stream:
+            csv.writer(stream).writerows(rows)
+
+    return results.whole(wanted.output / "proofs.csv", fill)

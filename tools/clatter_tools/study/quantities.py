@@ -5,7 +5,8 @@
 |---|---|---|---|
 | frequency | modes, rom | number | that mode's frequency in the file's order, of a reduced model that of its own matrices [Hz] |
 | line | field | sensor, at_hz | amplitude (peak) of the acceleration's line that is nearest to a frequency, of a channel by its label [m/s2] |
-| slap_time, slap_height, rings_until | field | | of the liner's acceleration above 300 Hz around firing TDC (slap.py) [s, m/s2, s] |
+| slap_time | field | part | of the liner's acceleration above 300 Hz: the first instant around firing TDC at which it reaches `part` of its largest value there, 0.75 without the key; 1: the instant of the largest, which jumps between peaks of about the same height (slap.py) [s] |
+| slap_height, rings_until | field | | largest value of the same, and when it has rung out [m/s2, s] |
 | third_octaves | field | of, from_hz, to_hz | curve of levels: of "sound", of panels/NAME (ERP) or of sensors/LABEL (acceleration); [dB] |
 | power_dba | field | | sound power [dB(A) re 1 pW] |
 | erp_dba | field | panel | equivalent radiated power of a panel [dB(A) re 1 pW] |
@@ -22,7 +23,7 @@ import dataclasses
 
 import numpy as np
 
-from .. import fields, orders, slap_rows
+from .. import fields, orders, slap, slap_rows
 from ..artefact import BadArtefact, dataset, open_artefact, text, totals
 from ..histories import crank_angle, has
 
@@ -130,6 +131,14 @@ def of_slap(name):
     return take
 
 
+def slap_time(file, part):
+    at = slap_rows.AT
+    sensor = fields.pick_sensor(file, at, "liner") if at in file else None
+    if not sensor:
+        raise BadArtefact(f"{file.filename}: found no slap, expected a cycle with a sensor of the liner")
+    return slap.onset(*slap.band_limited(file, sensor, at), part)
+
+
 def third_octaves(file, of, from_hz, to_hz):
     at = fields.piece(file, "cycle", *fields.pieces(file))
     kind, _, name = of.partition("/")
@@ -221,7 +230,7 @@ def curve(file, values, window):
 TAKE = {
     "frequency": Extractor(frequency, "Hz", {"number": (NUMBERS, ...)}),
     "line": Extractor(line, "m/s2", {"sensor": (TEXT, ...), "at_hz": (NUMBERS, ...)}),
-    "slap_time": Extractor(of_slap("time"), "s"),
+    "slap_time": Extractor(slap_time, "s", {"part": (NUMBERS, 0.75)}),
     "slap_height": Extractor(of_slap("peak"), "m/s2"),
     "rings_until": Extractor(of_slap("rings_until"), "s"),
     "third_octaves": Extractor(third_octaves, DB, {"of": (TEXT, ...), "from_hz": (NUMBERS, 0.0), "to_hz": (NUMBERS, 1e9)}),
@@ -264,6 +273,8 @@ def own_keys(where, entry, common):
         if not isinstance(value, kinds) or (isinstance(value, bool) and bool not in kinds) or value == "":
             raise BadArtefact(f"{where}.{key}: found {value!r}, expected a {'number' if kinds == NUMBERS else 'text' if kinds == TEXT else 'true or false'}")
         found[key] = value
+    if take == "slap_time" and not 0.0 < found["part"] <= 1.0:
+        raise BadArtefact(f"{where}.part: found {found['part']!r}, expected a number above 0, at most 1")
     if take == "dataset" and found["reduce"] not in (*REDUCTIONS, "curve"):
         raise BadArtefact(f"{where}.reduce: found {found['reduce']!r}, expected one of {', '.join([*REDUCTIONS, 'curve'])}")
     return take, found

@@ -21,9 +21,11 @@ HEAD = """# Written by `clatter study`: each artefact of its variants once.
 .PHONY: all
 all: {all}
 """
-# The inputs are links to artefacts that are complete: make need not look what they are made of. `times` is the shell's.
+# The inputs are links to artefacts that are complete: make need not look what they are made of. `times` is the shell's: of a stage that goes on from
+# its checkpoint the seconds before the interruption count as well.
 RULE = """{target}:{inputs}
-	+@cd {folder} && $(MAKE) --no-print-directory -I {pipeline} {old}{name} && times >.times.part && mv .times.part .times
+	+@cd {folder} && {{ ls *.checkpoint >/dev/null 2>&1 || rm -f .times.part; }} && trap 'times >>.times.part; exit 143' INT TERM && \\
+	$(MAKE) --no-print-directory -I {pipeline} {old}{name} && times >>.times.part && mv .times.part .times
 """
 
 
@@ -136,16 +138,18 @@ class Store:
 
     def make(self, jobs):
         """Makes what is missing; False where some of it could not be made, KeyboardInterrupt where it was interrupted."""
-        process = subprocess.Popen(["make", "--no-print-directory", "-k", f"-j{jobs}", "-f", "study.mk", "all"], cwd=self.folder, env=environment())
-        before = signal.signal(signal.SIGTERM, lambda *_: process.terminate())  # which make passes on to the stages
+        process = subprocess.Popen(["make", "--no-print-directory", "-k", f"-j{jobs}", "-f", "study.mk", "all"], cwd=self.folder, env=environment(),
+                                   start_new_session=True)  # make does not pass a signal on through the shells of its rules: it goes to the whole group
+        before = signal.signal(signal.SIGTERM, lambda *_: os.killpg(process.pid, signal.SIGTERM))
         interrupted = False
         try:
             while True:
                 try:
                     code = process.wait()
                     break
-                except KeyboardInterrupt:  # the terminal has told make and the stages: they end by themselves
+                except KeyboardInterrupt:
                     interrupted = True
+                    os.killpg(process.pid, signal.SIGINT)
         finally:
             signal.signal(signal.SIGTERM, before)
         if interrupted or code < 0:
@@ -171,7 +175,7 @@ class Store:
         """User and system seconds of the commands that made an artefact, on this machine; nan where they are not known."""
         path = self.folder / "made" / made.folder / ".times"
         lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
-        found = re.findall(r"(\d+)m([\d.]+)s", lines[-1]) if lines else []
+        found = [one for line in lines[1::2] for one in re.findall(r"(\d+)m([\d.]+)s", line)]  # each `times` has a line of the shell and one of its children
         return sum(60.0 * int(minutes) + float(seconds) for minutes, seconds in found) if found else float("nan")
 
 

@@ -63,9 +63,11 @@ def variants_of(plan, base):
     return found
 
 
-def changed_tables(plan, pipeline, base, variant):
-    """{file: its tables} of the TOML files in which a variant differs from the base."""
+def changed_tables(plan, pipeline, base, variant, more=()):
+    """{file: its tables} of the TOML files in which a variant differs from the base; `more`: [((file, path of keys), value)] of other changes."""
     found = {}
+    for (file, path), value in more:
+        toml_text.set_value(f"{plan.path}: {file}", found.setdefault(file, copy.deepcopy(pipeline.table(file))), path, value)
     for setting, value, before in zip(plan.settings, variant.values, base):
         for (file, path), own, old in zip(setting.keys, value, before):
             if own != old:
