@@ -3,9 +3,10 @@
 #   make build      the six executables          make install   PREFIX=/usr/local DESTDIR=
 #   make demo       samples/truck_diesel         make validate  the longer comparisons as well
 #   make check      every test but the long ones     make sanitize  the same with ASan and UBSan
+#   make hard       every hard case of docs/hard-cases.md with a line each; CASES="B3 N" chooses, WRITE=1 writes docs/hard-results.md
 #   make check-mpi  clatter-condense-mpi by several processes, and its tests
 #   make docs       the site in build/docs           make lint      format, self-contained headers
-#   make study      what accuracy costs, of beam and slap; make study-paper, study-parameters   figures and influences of the slap
+#   make study      what accuracy costs, of beam, slap and timing drive; make study-paper, study-parameters   figures and influences of the slap
 #   make deb        a Debian package in build/, for x86-64 processors of two generations
 JOBS ?= $(shell nproc)
 PRESET ?= release
@@ -22,9 +23,9 @@ export ASAN_OPTIONS := alloc_dealloc_mismatch=0
 endif
 
 .NOTPARALLEL:
-.PHONY: help setup setup-mpi setup-demo setup-check setup-validate configure build build-mpi build-tests demo study study-paper study-parameters check check-mpi validate sanitize format lint docs deb levels install clean
+.PHONY: help setup setup-mpi setup-demo setup-check setup-validate configure build build-mpi build-tests demo study study-paper study-parameters check hard check-mpi validate sanitize format lint docs deb levels install clean
 help:
-	@sed -n 's/^# \{0,1\}//;2,9p' Makefile
+	@sed -n 's/^# \{0,1\}//;2,10p' Makefile
 
 setup: ; @tools/setup build
 setup-mpi: ; @tools/setup build mpi
@@ -49,9 +50,9 @@ demo: setup-demo build
 	@tools/clatter report samples/truck_diesel
 	@tools/clatter report --html samples/truck_diesel
 
-# Errors and seconds over settings of two samples; an hour at most, taken up where it was interrupted.
+# Errors and seconds over settings of three samples; an hour at most, taken up where it was interrupted.
 study: setup-demo build
-	@for sample in beam truck_diesel; do $(MAKE) --no-print-directory -C samples/$$sample CLATTER_BIN=$(BIN) study || exit $$?; done
+	@for sample in beam truck_diesel timing_drive; do $(MAKE) --no-print-directory -C samples/$$sample CLATTER_BIN=$(BIN) study || exit $$?; done
 
 # Oil and clearance as in the paper, and one parameter at a time.
 study-paper study-parameters: setup-demo build
@@ -60,6 +61,11 @@ study-paper study-parameters: setup-demo build
 
 check: setup-check build-tests
 	@$(CTEST) -LE long
+
+# A line for each hard case (LONG=1: with its long tests), build/hard/hard.json and the page build/hard/index.html.
+hard: setup-check build-tests
+	@/usr/bin/python3 -B tests/hard/run_hard_cases.py $(BUILD) --jobs $(JOBS) --output build/hard \
+	  $(if $(CASES),--cases $(CASES)) $(if $(LONG),--long) $(if $(WRITE),--write docs/hard-results.md)
 
 # The programs of several processes; the others stay without MPI.
 build-mpi: setup-mpi

@@ -1,30 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/hard-cases.md, the tests named after its cases, and the citations in the sources agree."""
 import re
+import sys
 import unittest
 
 import repository
 
+sys.path.insert(0, str(repository.SOURCE / "tests/hard"))
+from hard_list import CASE, HEAD, entries, listed, not_covered, sorting_key  # noqa: E402
+
 LIST = repository.SOURCE / "docs/hard-cases.md"
-CASE = r"[A-Z]{1,2}\d+"
+RESULTS = repository.SOURCE / "docs/hard-results.md"
 # `hard case B3`, `hard cases G4, G9`, `Hard cases M1 to M5`, `(hard cases A4, C1, C2; H1)`
 CITATION = re.compile(rf"\b[Hh]ard[- ]cases?\s+({CASE}(?:(?:,| and| to|;)\s+{CASE})*)\b")
-HEAD = "## Not covered yet"
-
-
-def entries(text):
-    """{case: [names of its tests]} of the list."""
-    found = {}
-    for part in re.split(r"^### ", text.split(HEAD)[0], flags=re.M)[1:]:
-        case = re.match(rf"({CASE}) \S", part)
-        tests = re.search(r"^Tests: (.*?)(?:\n\n|\n*\Z)", part, re.M | re.S)
-        found[case[1] if case else part.split("\n")[0]] = re.findall(r"`([\w.]+)`", tests[1]) if tests else []
-    return found
-
-
-def not_covered(text):
-    """Cases of the table at the end."""
-    return re.findall(rf"^\| ({CASE}) \|", text.partition(HEAD)[2], re.M)
 
 
 def cases_of(test):
@@ -80,9 +68,17 @@ class HardCases(unittest.TestCase):
     def test_cases_come_once_and_in_order(self):
         text = LIST.read_text()
         heads = re.findall(rf"^### ({CASE})", text, re.M)
-        parts = [re.match(r"([A-Z]+)(\d+)", head).groups() for head in heads]
-        self.assertEqual(parts, sorted(parts, key=lambda part: (part[0], int(part[1]))))
+        self.assertEqual(heads, sorted(heads, key=sorting_key))
         self.assertEqual(len(heads), len(set(heads)))
+
+    def test_every_entry_says_what_goes_wrong_and_what_must_happen(self):
+        for entry in listed(LIST.read_text()):
+            with self.subTest(case=entry.case):
+                self.assertTrue(entry.title and entry.must)
+
+    def test_the_table_of_results_has_every_case(self):
+        shown = re.findall(rf"^\| ({CASE}) \|", RESULTS.read_text(), re.M)
+        self.assertEqual(shown, list(entries(LIST.read_text())), "docs/hard-results.md: run `make hard WRITE=1`")
 
     def test_whoever_names_the_file_names_the_one_in_docs(self):
         for path in repository.files(".cpp", ".hpp", ".py", ".md", ".txt", ".cmake"):
