@@ -26,41 +26,6 @@ constexpr double kNear = 1e-9;
 /// Events of a function accumulate when so many in a row each follow within so many smallest steps.
 constexpr int kMostClose = 4;
 constexpr double kClose = 1e4;
-/// So many rows of a table within a step enclose an interval of which no stage sees anything.
-constexpr int kHiddenRows = 2;
-
-/// The entries above `noise`; the others are 0.
-VectorXd beyond(const VectorXd& x, const VectorXd& noise) {
-  return (x.array().abs() > noise.array()).select(x, 0.0);
-}
-
-/// The rows of a load's table within a step, its ends excluded.
-class RowsInStep {
- public:
-  RowsInStep(const Load& load, double begin, double end) : load_(load), begin_(begin), end_(end) {
-    if (!load.next_row) return;
-    double row = begin;
-    while (count_ < kHiddenRows && (row = load.next_row(row)) < end) ++count_;
-  }
-  int count() const { return count_; }
-  /// Of the load over the step, by Simpson's rule from row to row: exact for linear and cubic
-  /// tables.
-  double integral() const {
-    double sum = 0.0, from = begin_, value = load_.value(begin_);
-    while (from < end_) {
-      const double to = std::min(load_.next_row(from), end_), next = load_.value(to);
-      sum += (to - from) / 6.0 * (value + 4.0 * load_.value(0.5 * (from + to)) + next);
-      from = to;
-      value = next;
-    }
-    return sum;
-  }
-
- private:
-  const Load& load_;
-  double begin_, end_;
-  int count_ = 0;
-};
 
 }  // namespace
 
@@ -78,6 +43,8 @@ Integrator::Integrator(System& system, const StepOptions& options)
       stages_(static_cast<size_t>(options.method->stages)),
       estimate_(system),
       derived_(system, options.accuracy),
+      missed_(system, weights_, *tableau_),
+      floor_(system),
       events_(system) {}
 
 double Integrator::ladder_step(int rung) const {
@@ -150,38 +117,12 @@ double Integrator::measure(const VectorXd& e_y) {
   const double derived = derived_.measure(e_eta_, e_v_, e_y);
   if (!std::isfinite(largest.value + modal + derived))
     return std::numeric_limits<double>::infinity();
-  const double other = std::max(derived, missed_impulse());
+  const double other = std::max(derived, missed_.error(now_.time, stages_));
   const double all = std::max({largest.value, modal, other});
   if (all <= 1.0) return all;
-  // The estimate is a difference of sums: below their rounding it is no error (hard case S10).
-  const double dt = end().time - now_.time, eps = 16.0 * std::numeric_limits<double>::epsilon();
-  const VectorXd eta = eps * (now_.eta.cwiseAbs().cwiseMax(end().eta.cwiseAbs()) +
-                              dt * now_.v.cwiseAbs().cwiseMax(end().v.cwiseAbs()));
-  const VectorXd v = eta / dt + eps * dt * now_.a.cwiseAbs();
-  const VectorXd y = beyond(e_y, eps * (now_.y.cwiseAbs().cwiseMax(end().y.cwiseAbs()) +
-                                        dt * now_.v_y.cwiseAbs().cwiseMax(end().v_y.cwiseAbs())));
-  return std::max({largest_entry(y.cwiseProduct(weights_.displacement)).value,
-                   modal_error(system_, weights_, beyond(e_eta_, eta), beyond(e_v_, v)), other});
-}
-
-// The error estimate compares forces at the stages: it cannot see a pulse between them (hard case
-// S2).
-double Integrator::missed_impulse() {
-  bool any = false;
-  for (const Load& load : system_.loads()) {
-    const RowsInStep rows(load, now_.time, end().time);
-    if (rows.count() < kHiddenRows) continue;
-    double sum = tableau_->b[0] * load.value(now_.time);
-    for (size_t i = 0; i < stages_.size(); ++i)
-      sum += tableau_->b[i + 1] * load.value(stages_[i].time);
-    if (!any) missed_.setZero(system_.modes());
-    any = true;
-    const double missed = rows.integral() - (end().time - now_.time) * sum;
-    missed_.segment(system_.mode_offset(load.body), load.direction.size()) +=
-        missed * load.direction;
-  }
-  return any ? modal_error(system_, weights_, Eigen::VectorXd::Zero(system_.modes()), missed_)
-             : 0.0;
+  floor_.apply(now_, end(), e_eta_, e_v_, e_y);
+  return std::max({largest_entry(floor_.y().cwiseProduct(weights_.displacement)).value,
+                   modal_error(system_, weights_, floor_.eta(), floor_.v()), other});
 }
 
 void Integrator::step(double limit) {

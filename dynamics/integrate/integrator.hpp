@@ -14,6 +14,8 @@
 #include "dynamics/integrate/derived_error.hpp"
 #include "dynamics/integrate/error_estimate.hpp"
 #include "dynamics/integrate/event_search.hpp"
+#include "dynamics/integrate/missed_impulse.hpp"
+#include "dynamics/integrate/rounding_floor.hpp"
 #include "dynamics/integrate/stage_operator.hpp"
 #include "dynamics/integrate/stage_solver.hpp"
 #include "dynamics/integrate/stage_state.hpp"
@@ -101,9 +103,6 @@ class Integrator {
   /// Largest of e_y, the errors of the bodies, and where asked for those of forces and
   /// accelerations, over their limits; infinite when not finite.
   double measure(const Eigen::VectorXd& e_y);
-  /// What the last attempt missed of loads by tables with rows within the step, as the error of a
-  /// velocity over its limit.
-  double missed_impulse();
   const StageState& end() const { return stages_[static_cast<size_t>(tableau_->stages - 1)]; }
 
   System& system_;
@@ -117,7 +116,6 @@ class Integrator {
   std::vector<StageState> stages_;
   double last_error_ = 0.0;
   Eigen::VectorXd e_eta_, e_v_;  // local errors of the last attempt
-  Eigen::VectorXd missed_;       // velocities
 
  private:
   const StageOperator& ladder_operator(int rung);
@@ -134,6 +132,8 @@ class Integrator {
 
   ErrorEstimate estimate_;
   DerivedError derived_;
+  MissedImpulse missed_;
+  RoundingFloor floor_;
   EventSearch events_;
   std::optional<Event> event_;  // in the step under way: it ends there
   StageState arrived_;          // at the event that ended the last step
