@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <string_view>
 
 #include "core/base/changed_inputs.hpp"
@@ -62,9 +63,17 @@ void finish_artefact(H5File& file, const std::filesystem::path& output,
                      const CommonOptions& common) {
   write_provenance(file, provenance);
   write_timing(file, clock);
+  // A process that is killed between the two must not leave an artefact whose inputs make does not
+  // know (hard case P2); a list that cannot be written must not cost the artefact.
+  std::exception_ptr failure;
+  try {
+    write_depfile(common.depfile, output, provenance.inputs);
+  } catch (...) {
+    failure = std::current_exception();
+  }
   file.commit(output);
   date_before_changed_inputs(output, provenance.inputs);
-  write_depfile(common.depfile, output, provenance.inputs);
+  if (failure) std::rethrow_exception(failure);
 }
 
 void print_json_result(const std::filesystem::path& output, const JsonMembers& members,

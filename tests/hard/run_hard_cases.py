@@ -10,6 +10,7 @@ import concurrent.futures
 import json
 import pathlib
 import re
+import signal
 import sys
 import time
 
@@ -73,6 +74,8 @@ def main(arguments=None):
         entries = chosen(hard_list.listed((SOURCE / "docs/hard-cases.md").read_text(encoding="utf-8")), given.cases)
     except ValueError as error:
         parser.error(str(error))
+    # Tests interrupt programs: a shell that starts this in the background would have them ignore it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     found = run_all(entries, jobs.registered_tests(given.build), max(1, given.jobs), given.long,
                     say=lambda text: print(text, flush=True))
     print(results.summary(found))
