@@ -7,7 +7,7 @@ difference and factors. A finest value that is itself the reference counts with 
 Settings are chosen by the sum of the magnitudes; what is expected is the magnitude of the sum.
 
 --at changes keys of the pipeline for the proof: another speed, load or clearance than that of the study, whose errors are then expected there too, and
-whose seconds in proportion to those of its base. The error is that from a run there with everything refined.
+whose seconds in proportion to those of each stage of its base. The error is that from a run there with everything refined.
 Each proof is a row of proofs.csv in the study's folder; --markdown shows them.
 """
 import csv
@@ -40,11 +40,13 @@ class Candidate:
 
 @dataclasses.dataclass
 class Proposal:
-    """values: of all settings; expected: |sum of the differences|; most: sum of their magnitudes, in the units of errors; seconds."""
+    """values: of all settings; expected: |sum of the differences|; most: sum of their magnitudes, in the units of errors; seconds; factors:
+    of the seconds of the base's stages, by artefact."""
     values: tuple
     expected: float
     most: float
     seconds: float
+    factors: dict
 
 
 def candidates(study, quantity, number):
@@ -114,33 +116,42 @@ def propose(study, quantity, within, seconds=math.inf):
     if math.prod(map(len, lists)) > MOST:
         raise run.Failed(f"{study.plan.path}: found {math.prod(map(len, lists))} combinations of values, expected at most {MOST}")
     file = study.plan.quantities[quantity].file
-    base = {stage.name: getattr(stage, study.plan.cost) for stage in study.stages[BASE] if file in stage.needed_by}
+    base = [stage for stage in study.stages[BASE] if file in stage.needed_by]
     best = least = None
     for chosen in itertools.product(*lists):
         most = scaled(sum(one.difference.size() for one in chosen))
-        spent = sum(own * math.prod(one.factors.get(name, 1.0) for one in chosen) for name, own in base.items())
+        spent = seconds_by(study.plan, base, factors_of(base, chosen))
         key = (spent > seconds, most, spent)
         if least is None or key < least[0]:
             least = (key, chosen, most, spent)
         if most <= within and spent <= seconds and (best is None or (spent, most) < best[0]):
             best = ((spent, most), chosen, most, spent)
-    return tuple(proposal_of(study, quantity, one) if one else None for one in (best, least))
+    return tuple(proposal_of(study, quantity, base, one) if one else None for one in (best, least))
 
 
-def proposal_of(study, quantity, found):
+def factors_of(stages, chosen):
+    return {stage.name: math.prod(one.factors.get(stage.name, 1.0) for one in chosen) for stage in stages}
+
+
+def seconds_by(wanted, stages, factors):
+    """Seconds of stages of a base with the factors of other settings."""
+    return sum(getattr(stage, wanted.cost) * factors[stage.name] for stage in stages)
+
+
+def proposal_of(study, quantity, base, found):
     _, chosen, most, spent = found
     total = chosen[0].difference
     for one in chosen[1:]:
         total = total.plus(one.difference)
-    return Proposal(tuple(one.value for one in chosen), study.scaled(quantity, total.size()), most, spent)
+    return Proposal(tuple(one.value for one in chosen), study.scaled(quantity, total.size()), most, spent, factors_of(base, chosen))
 
 
 @dataclasses.dataclass
 class Proof:
-    """Of a run: its error in the units of errors, its seconds, and those of the base there over those of the study's base."""
+    """Of a run: its error in the units of errors, its seconds, and those expected there."""
     error: float
     seconds: float
-    pace: float
+    expected: float
 
 
 def prove(study, quantity, proposal, jobs, at=()):
@@ -163,8 +174,8 @@ def prove(study, quantity, proposal, jobs, at=()):
             reference = reference.minus(line.errors[-1])
     error = values[1].minus(reference).size()
     scale = reference.size() if wanted.quantities[quantity].relative and reference.size() > 0.0 else 1.0
-    seconds = [run.cost_of(wanted, made.stages(own), quantity) for own in artefacts]
-    return Proof(error / scale, seconds[1], seconds[0] / study.cost(BASE, quantity) if at else 1.0)
+    base_there = [stage for stage in made.stages(artefacts[0]) if stage.name in proposal.factors]
+    return Proof(error / scale, run.cost_of(wanted, made.stages(artefacts[1]), quantity), seconds_by(wanted, base_there, proposal.factors))
 
 
 def elsewhere(wanted, texts):
@@ -220,13 +231,12 @@ def answer(study, text, seconds, jobs, at=()):
                          f"{f' and {seconds:g} s' if math.isfinite(seconds) else ''}: add finer values, or ask for less")
     print("\n".join(report(study, quantity, best)), flush=True)
     proof = prove(study, quantity, best, jobs, there)
-    expected = best.seconds * proof.pace
     print(f"the run{', ' if at else ''}{', '.join(at)}: {findings.error_text(study, quantity, proof.error)}, {findings.seconds_text(proof.seconds)}"
-          f"{f' of {findings.seconds_text(expected)} expected there' if at else ''}{'' if proof.error <= within else ': MORE THAN REQUESTED'}")
+          f"{f' of {findings.seconds_text(proof.expected)} expected there' if at else ''}{'' if proof.error <= within else ': MORE THAN REQUESTED'}")
     keep_proof(study.plan, [text, ", ".join(at) or "the study's", ", ".join(f"{setting.name} {setting.label(value)}" for setting, value in zip(study.plan.settings, best.values)),
-                            f"{findings.error_text(study, quantity, best.expected)} (at most {findings.error_text(study, quantity, best.most)}), {findings.seconds_text(expected)}",
+                            f"{findings.error_text(study, quantity, best.expected)} (at most {findings.error_text(study, quantity, best.most)}), {findings.seconds_text(proof.expected)}",
                             f"{findings.error_text(study, quantity, proof.error)}, {findings.seconds_text(proof.seconds)}",
-                            f"{proof.error / best.expected:.2f}" if best.expected > 0.0 else "-", f"{proof.seconds / expected:.2f}"])
+                            f"{proof.error / best.expected:.2f}" if best.expected > 0.0 else "-", f"{proof.seconds / proof.expected:.2f}"])
 
 
 PROOFS = ["request", "scene", "proposed", "expected", "the run", "error over expected", "seconds over expected"]
