@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Hard case P2: an artefact and the list of inputs that make reads with it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/base/write_artefact.hpp"
+#include "tests/refusal.hpp"
+
+namespace clatter {
+namespace {
+
+namespace fs = std::filesystem;
+
+class HardP2_Dependencies : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() /
+              (std::string("clatter_core_") +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    artefact_ = folder_ / "part.mesh.h5";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const fs::path& depfile) const {
+    CommonOptions common;
+    common.depfile = depfile;
+    write_artefact(artefact_, {"clatter/mesh/1", "", {}}, StepClock(), common, [](H5File&) {});
+  }
+
+  fs::path folder_, artefact_;
+};
+
+// A process may be killed after each file: no artefact is there without its list.
+TEST_F(HardP2_Dependencies, AreListedBeforeTheArtefactIsThere) {
+  const fs::path depfile = folder_ / "part.mesh.h5.d";
+  fs::create_directories(artefact_ / "taken");  // so that the artefact cannot get its name
+  test::expect_parts(test::refusal_of<FileError>([&] { write(depfile); }), {"part.mesh.h5"});
+  EXPECT_TRUE(fs::exists(depfile));
+}
+
+TEST_F(HardP2_Dependencies, ThatCannotBeListedDoNotCostTheArtefact) {
+  const fs::path depfile = folder_ / "missing" / "part.mesh.h5.d";
+  test::expect_parts(test::refusal_of<FileError>([&] { write(depfile); }), {depfile.string()});
+  EXPECT_TRUE(fs::is_regular_file(artefact_));
+}
+
+}  // namespace
+}  // namespace clatter
