@@ -11,7 +11,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 import stages  # noqa: E402
-from clatter_tools.study import effects, run  # noqa: E402
+from clatter_tools.study import effects, findings, run  # noqa: E402
 
 STUDY = """
 [[setting]]
@@ -71,6 +71,8 @@ class BeamStudy(unittest.TestCase):
         errors = dict(zip(names, (self.study.error(0, k) for k in range(len(names)))))
         self.assertGreater(errors["modes up to 300 Hz"], 0.02)  # the fourth mode is at 570 Hz
         self.assertLess(errors["base"], 1e-6)
+        self.assertEqual([one.name for one, value in zip(self.study.variants, self.study.values[0]) if value.beyond], ["modes up to 300 Hz"])
+        self.assertRegex(findings.verdict(self.study, 0), r"is beyond what the model states with modes up to 300 Hz \(\d+\.?\d* Hz of 150 Hz\)")
         self.assertEqual(errors["largest step 400"], errors["base"])
         self.assertTrue(all(self.study.cost(k) > 0.0 for k in range(len(names))))
 

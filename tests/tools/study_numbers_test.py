@@ -7,6 +7,7 @@ import unittest
 
 import h5py
 import numpy as np
+import synthetic
 
 from clatter_tools import slap
 from clatter_tools.artefact import BadArtefact
@@ -31,6 +32,33 @@ class Convergence(unittest.TestCase):
         found = convergence.line("auto", [0, 1, 2, 3], [8.0, 4.0, 2.0, 1.0], q, q[1])
         self.assertEqual((found.source, found.reference.values[0]), ("finest", 0.40))
         self.assertAlmostEqual(found.base_error.values[0], 0.1)
+
+    def test_differences_that_fall_steadily_are_expected_with_their_sign(self):
+        values = [quantities.number(one) for one in (1.5, 1.2, 1.05, 1.0)]
+        found, steady = convergence.expected(convergence.line("finest", [0, 1, 2, 3], None, values, values[1]))
+        self.assertTrue(steady)
+        np.testing.assert_allclose([one.number() for one in found], [0.5, 0.2, 0.05, 0.025], atol=1e-12)
+        # Of Richardson's limit the finest value has the known difference.
+        values = [quantities.number(1.0 + h) for h in (0.8, 0.4, 0.2, 0.1)]
+        found, steady = convergence.expected(convergence.line("auto", [0, 1, 2, 3], [8.0, 4.0, 2.0, 1.0], values, values[1]))
+        self.assertTrue(steady)
+        np.testing.assert_allclose([one.number() for one in found], [0.8, 0.4, 0.2, 0.1], atol=1e-9)
+
+    def test_along_a_line_that_jumps_no_value_is_better_than_a_finer_one(self):
+        for values, wanted in (((1.02, 0.7, 1.3, 1.0), (0.3, 0.3, 0.3, 0.3)), ((1.5, 1.02, 1.2, 1.0), (0.5, 0.2, 0.2, 0.2)),
+                               ((1.0, 1.1, 1.2, 1.0), (0.2, 0.2, 0.2, 0.2)), ((1.4, 1.0), (0.4, 0.4)), ((1.0, 1.0), (0.0, 0.0))):
+            values = [quantities.number(one) for one in values]
+            found, steady = convergence.expected(convergence.line("auto", list(range(len(values))), None, values, values[0]))
+            self.assertEqual(steady, wanted[0] == 0.0)
+            np.testing.assert_allclose([one.size() for one in found], wanted, atol=1e-12)
+
+    def test_curves_fall_steadily_where_their_changes_point_the_same_way(self):
+        curve = lambda *values: quantities.Value(np.array(values), np.arange(len(values)) + 1.0)  # noqa: E731
+        line = lambda *values: convergence.line("auto", list(range(len(values))), None, list(values), values[0])  # noqa: E731
+        self.assertTrue(convergence.expected(line(curve(4.0, 2.0), curve(2.0, 1.1), curve(1.0, 0.5)))[1])
+        self.assertFalse(convergence.expected(line(curve(4.0, 2.0), curve(2.0, 1.1), curve(3.0, 1.5)))[1])
+        # Bands that a coarse value lacks do not count.
+        self.assertTrue(convergence.expected(line(curve(4.0), curve(2.0, 1.1), curve(1.0, 0.5)))[1])
 
     def test_the_pareto_front_is_what_nothing_beats(self):
         self.assertEqual(convergence.pareto([1.0, 2.0, 3.0, 2.5, 9.0], [1.0, 0.5, 0.6, 0.1, float("nan")]), [0, 1, 3])
@@ -84,6 +112,29 @@ class Values(unittest.TestCase):
         np.testing.assert_array_equal(one.minus(other).values, [0.5, -2.0])
         self.assertEqual((one.minus(other).size(), one.minus(other).number()), (2.0, -2.0))
         np.testing.assert_array_equal(one.plus(other).values, [3.5, 8.0])
+
+    def test_a_frequency_above_what_the_certificate_covers_is_said(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.rom.h5"
+            with h5py.File(path, "w") as file:
+                file["K_rr"], file["M_rr"] = np.diag([0.0, 1.0, 4.0]) * (2.0 * np.pi) ** 2, np.eye(3)
+                file.create_group("certificate").attrs["accurate_to_hz"] = 1.5
+            found = [quantities.extract(path, "frequency", {"number": number}) for number in (2, 3)]
+            self.assertEqual([one.beyond for one in found], ["", "2 Hz of 1.5 Hz"])
+            self.assertAlmostEqual(found[1].number(), 2.0)
+
+    def test_a_slap_up_to_a_frequency_lacks_what_rings_above_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.field.h5"
+            synthetic.write_field(path, ring_hz=1800.0)
+            take = lambda to_hz, name="slap_height": quantities.extract(path, name, {"to_hz": to_hz})  # noqa: E731
+            with h5py.File(path) as file:
+                self.assertEqual(take(0.0).number(), slap.peak(*slap.band_limited(file, "analysis/cycle/sensors/sensor_liner", "analysis/cycle"))[1])
+            self.assertLess(take(1000.0).number(), 0.3 * take(0.0).number())
+            self.assertEqual(take(4984.0).number(), take(0.0).number())
+            self.assertEqual([take(0.0).beyond, take(4990.0).beyond, take(6000.0, "rings_until").beyond], ["", "", "spectra to 4983 Hz of 6000 Hz"])
+            bands = lambda to_hz: quantities.extract(path, "third_octaves", {"of": "panels/skin", "from_hz": 900.0, "to_hz": to_hz})  # noqa: E731
+            self.assertEqual([bands(4500.0).beyond, bands(quantities.EVERYTHING).beyond, bands(5500.0).beyond], ["", "", "third octaves to 3981.07 Hz of 5500 Hz"])
 
     def test_histories_are_reduced_over_their_last_cycle(self):
         with tempfile.TemporaryDirectory() as folder:

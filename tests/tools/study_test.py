@@ -89,6 +89,14 @@ class Proposals(StandIns):
                    if 0.5 * h**2 + 8.0 * tau + 3.0 / n**3 - 3.0 / 8**3 <= 1.5]
         self.assertLessEqual(best.seconds, min(seconds) + 1e-9)
 
+        # With values that the model does not state nothing is proposed, nor between them and others.
+        few = [k for k, one in enumerate(study.variants) if one.values in [((H,), (TAU,), (n,)) for n in (1, 2)]]
+        self.assertLess(proposal.propose(study, 0, 4.0 / reference)[0].values[2][0], 4)
+        for k in few:
+            study.values[0][k].beyond = "above what is stated"
+        self.assertGreaterEqual(proposal.propose(study, 0, 4.0 / reference)[0].values[2][0], 4)
+        self.assertIn("it is beyond what the model states with base (above what is stated), modes 1 (above what is stated)", findings.verdict(study, 0))
+
     def test_what_cannot_be_reached_is_said_with_the_nearest(self):
         self.write("study.toml", SMALL)
         line = self.command("--within", "value 0.001 %", code=3)

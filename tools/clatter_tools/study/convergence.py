@@ -64,6 +64,24 @@ def line(wanted, variants, sizes, values, base):
     return Line(variants, reference, source, orders, [one.minus(reference) for one in values], base.minus(reference))
 
 
+def expected(line):
+    """([difference to expect with each value of a Line], whether they fall steadily with one sign)."""
+    sizes, zero = [one.size() for one in line.errors], NOISE * line.reference.size()
+    changes = [one.minus(other) for one, other in zip(line.errors, line.errors[1:])]
+    if max(sizes) <= zero:
+        return line.errors, True
+    steady = len(changes) > 1 and all(one.product(other) > 0.0 for one, other in zip(changes, changes[1:])) \
+        and changes[-1].size() <= changes[-2].size() and all(a >= b for a, b in zip(sizes, sizes[1:]))
+    rest = changes[-1] if line.source == "finest" and changes else line.errors[-1]  # of the finest value
+    if steady:
+        return [*line.errors[:-1], rest.times(0.5) if line.source == "finest" else rest], True
+    found, largest = [], rest.size()
+    for one in reversed([*line.errors[:-1], rest]):
+        largest = max(largest, one.size())
+        found.append(one.times(largest / one.size()) if one.size() > 0.0 else rest.times(largest / rest.size() if rest.size() > 0.0 else 0.0))
+    return found[::-1], False
+
+
 def is_clean(orders, wanted):
     """Whether the last orders agree; where Richardson's extrapolation is asked for, one is enough."""
     last = orders[-2:] if wanted == "auto" else orders[-1:]

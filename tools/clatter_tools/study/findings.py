@@ -108,7 +108,14 @@ def verdict(study, quantity):
             said.insert(0, f"sum and run are both within {error_text(study, quantity, own.small)}")
         else:
             said.insert(0, f"the budget is open, sum over run {ratio:.2f}: {'' if said else 'the settings act on each other or the quantity jumps'}".rstrip(": "))
+    said += beyond(study, quantity)
     return f"{own.name}: {'; it '.join(said) or 'no run with everything refined'}"
+
+
+def beyond(study, quantity):
+    """["is beyond what the model states with modes up to 300 Hz (565 Hz of 150 Hz)"] of the variants with which it is."""
+    named = [f"{one.name} ({value.beyond})" for one, value in zip(study.variants, study.values[quantity]) if value is not None and value.beyond]
+    return [f"is beyond what the model states with {', '.join(named)}"] if named else []
 
 
 def verdicts(study):

@@ -2,9 +2,12 @@
 """`clatter study --within`: the cheapest settings for a requested error, by what the study has measured, proved by a run.
 
 Model: the differences from the references of the settings add up, and the seconds of each artefact are those of the base times a factor for each
-setting. Between two tested values of a setting with step sizes there is one more candidate in the middle (of logarithms), with interpolated
-difference and factors. A finest value that is itself the reference counts with half its difference from the next coarser one.
-Settings are chosen by the sum of the magnitudes; what is expected is the magnitude of the sum.
+setting. Along a setting whose differences fall steadily with one sign they add with their signs; a finest value that is its own reference has half of
+the difference from the next coarser one, and between two tested values with step sizes there is one more candidate in the middle (of
+logarithms), with interpolated difference and factors. Along any other setting a small difference is an accident of this scene: a value has the largest
+difference of itself and all finer ones, the finest that of the last refinement, no value in between is proposed, and these differences, whose
+signs say nothing, add in squares. Settings are chosen by the sum of all magnitudes.
+Values with which the model does not state the quantity (a frequency above half the cut-off, bands above the spectra) are no candidates.
 
 --at changes keys of the pipeline for the proof: another speed, load or clearance than that of the study, whose errors are then expected there too, and
 whose seconds in proportion to those of each stage of its base. The error is that from a run there with everything refined.
@@ -17,7 +20,7 @@ import math
 import tomllib
 
 from ..artefact import BadArtefact
-from . import findings, plan, results, run, variants
+from . import convergence, findings, plan, results, run, variants
 from .quantities import Value
 from .run import BASE
 
@@ -26,10 +29,12 @@ MOST = 300_000  # combinations
 
 @dataclasses.dataclass
 class Candidate:
-    """A value of a setting: its difference from the setting's reference, and factors of the seconds by artefact."""
+    """A value of a setting: its difference from the setting's reference, factors of the seconds by artefact, and whether the sign of the difference
+    can be relied on."""
     value: tuple
     difference: Value
     factors: dict
+    signed: bool
 
     def worse_than(self, other, scaled):
         """Whether another one has neither a larger error nor any larger factor."""
@@ -40,8 +45,8 @@ class Candidate:
 
 @dataclasses.dataclass
 class Proposal:
-    """values: of all settings; expected: |sum of the differences|; most: sum of their magnitudes, in the units of errors; seconds; factors:
-    of the seconds of the base's stages, by artefact."""
+    """values: of all settings; expected: error by the sum of the differences; most: sum of their magnitudes, in the units of errors; seconds;
+    factors: of the seconds of the base's stages, by artefact."""
     values: tuple
     expected: float
     most: float
@@ -55,16 +60,17 @@ def candidates(study, quantity, number):
     base = {stage.name: getattr(stage, study.plan.cost) for stage in study.stages[BASE]}
     if line is None:
         zero = study.values[quantity][BASE].minus(study.values[quantity][BASE])
-        return [Candidate(study.variants[BASE].values[number], zero, {})]
-    names, found = study.affected(number), []
-    for variant, difference in zip(line.variants, line.errors):
+        return [Candidate(study.variants[BASE].values[number], zero, {}, True)]
+    names, found, sizes = study.affected(number), [], []
+    differences, steady = convergence.expected(line)
+    stated = [k for k, variant in enumerate(line.variants) if not study.values[quantity][variant].beyond]
+    for k in stated or range(len(differences)):
+        variant = line.variants[k]
         factors = {stage.name: max(getattr(stage, study.plan.cost), 1e-9) / max(base[stage.name], 1e-9)
                    for stage in study.stages[variant] if stage.name in names}
-        found.append(Candidate(study.variants[variant].values[number], difference, factors))
-    if line.source == "finest" and len(found) > 1:
-        found[-1].difference = found[-2].difference.times(0.5)
-    sizes = setting.sizes if setting.sizes and len(line.variants) == len(setting.values) else None
-    return found + (between(found, sizes) if sizes else [])
+        found.append(Candidate(study.variants[variant].values[number], differences[k], factors, steady))
+        sizes.append(setting.sizes[setting.values.index(found[-1].value)] if setting.sizes and found[-1].value in setting.values else None)
+    return found + (between(found, sizes) if steady and None not in sizes else [])
 
 
 def between(tested, sizes):
@@ -78,7 +84,7 @@ def between(tested, sizes):
         same = pair[0] * pair[1] > 0.0
         difference = math.copysign(math.sqrt(pair[0] * pair[1]), pair[0]) if same else 0.5 * (pair[0] + pair[1])
         factors = {name: math.sqrt(one.factors.get(name, 1.0) * other.factors.get(name, 1.0)) for name in {*one.factors, *other.factors}}
-        found.append(Candidate(value, Value(one.difference.values * 0.0 + difference, one.difference.at), factors))
+        found.append(Candidate(value, Value(one.difference.values * 0.0 + difference, one.difference.at), factors, True))
     return found
 
 
@@ -140,10 +146,14 @@ def seconds_by(wanted, stages, factors):
 
 def proposal_of(study, quantity, base, found):
     _, chosen, most, spent = found
-    total = chosen[0].difference
-    for one in chosen[1:]:
-        total = total.plus(one.difference)
-    return Proposal(tuple(one.value for one in chosen), study.scaled(quantity, total.size()), most, spent, factors_of(base, chosen))
+    total, squares = chosen[0].difference.times(0.0), 0.0
+    for one in chosen:
+        if one.signed:
+            total = total.plus(one.difference)
+        else:
+            squares += one.difference.size()**2
+    expected = math.hypot(total.size(), math.sqrt(squares))
+    return Proposal(tuple(one.value for one in chosen), study.scaled(quantity, expected), most, spent, factors_of(base, chosen))
 
 
 @dataclasses.dataclass

@@ -3,10 +3,10 @@
 
 | take | from | own keys | what |
 |---|---|---|---|
-| frequency | modes, rom | number | that mode's frequency in the file's order, of a reduced model that of its own matrices [Hz] |
+| frequency | modes, rom | number | that mode's frequency in the file's order, of a reduced model that of its own matrices, which its certificate covers up to half the cut-off [Hz] |
 | line | field | sensor, at_hz | amplitude (peak) of the acceleration's line that is nearest to a frequency, of a channel by its label [m/s2] |
-| slap_time | field | part | of the liner's acceleration above 300 Hz: the first instant around firing TDC at which it reaches `part` of its largest value there, 0.75 without the key; 1: the instant of the largest, which jumps between peaks of about the same height (slap.py) [s] |
-| slap_height, rings_until | field | | largest value of the same, and when it has rung out [m/s2, s] |
+| slap_time | field | part, to_hz | of the liner's acceleration from 300 Hz to to_hz (without the key as far as the spectra reach, which is another quantity for each cut-off of the block): the first instant around firing TDC at which it reaches `part` of its largest value there, 0.75 without the key; 1: the instant of the largest, which jumps between peaks of about the same height (slap.py) [s] |
+| slap_height, rings_until | field | to_hz | largest value of the same, and when it has rung out [m/s2, s] |
 | third_octaves | field | of, from_hz, to_hz | curve of levels: of "sound", of panels/NAME (ERP) or of sensors/LABEL (acceleration); [dB] |
 | power_dba | field | | sound power [dB(A) re 1 pW] |
 | erp_dba | field | panel | equivalent radiated power of a panel [dB(A) re 1 pW] |
@@ -30,6 +30,8 @@ from ..histories import crank_angle, has
 POINTS = 1440
 CYCLE_DEG = 720.0
 DB = "dB"
+EVERYTHING = 1e9     # Hz
+THIRD = 10.0**0.1    # from one third octave to the next
 REDUCTIONS = {
     "first": lambda x: x[0], "last": lambda x: x[-1], "min": np.min, "max": np.max, "largest": lambda x: np.max(np.abs(x)), "range": np.ptp,
     "mean": np.mean, "rms": lambda x: np.sqrt(np.mean(np.square(x))),
@@ -38,14 +40,24 @@ REDUCTIONS = {
 
 @dataclasses.dataclass
 class Value:
-    """A number, or a curve: values at `at`; of a number both have one entry."""
+    """A number, or a curve: values at `at`; of a number both have one entry. beyond: why the model does not state it; empty where it does."""
     values: np.ndarray
     at: np.ndarray
+    beyond: str = ""
 
     def minus(self, other):
         """The difference where both are known."""
-        common, mine, others = np.intersect1d(np.round(self.at, 6), np.round(other.at, 6), return_indices=True)
-        return Value(self.values[mine] - other.values[others], self.at[mine]) if len(common) else Value(np.array([np.nan]), np.zeros(1))
+        mine, others = self.common(other)
+        return Value(self.values[mine] - other.values[others], self.at[mine]) if len(mine) else Value(np.array([np.nan]), np.zeros(1))
+
+    def common(self, other):
+        """Indices of the entries that both have."""
+        return np.intersect1d(np.round(self.at, 6), np.round(other.at, 6), return_indices=True)[1:]
+
+    def product(self, other):
+        """The sum of the products of the entries that both have."""
+        mine, others = self.common(other)
+        return float(self.values[mine] @ other.values[others])
 
     def plus(self, other):
         return self.minus(Value(-other.values, other.at))
@@ -108,7 +120,9 @@ def frequency(file, number):
         found = np.sqrt(np.maximum(squared, 0.0)) / (2.0 * np.pi)
     if not 1 <= wanted <= len(found):
         raise BadArtefact(f"{file.filename}: found {len(found)} modes, expected mode {wanted}")
-    return found[wanted - 1]
+    limit = float(file["certificate"].attrs.get("accurate_to_hz", np.inf)) if "certificate" in file else np.inf
+    beyond = f"{found[wanted - 1]:.4g} Hz of {limit:.4g} Hz" if found[wanted - 1] > limit else ""
+    return Value(np.array([found[wanted - 1]]), np.zeros(1), beyond)
 
 
 def line(file, sensor, at_hz):
@@ -122,21 +136,30 @@ def line(file, sensor, at_hz):
     raise BadArtefact(f"{file.filename}: {at}/sensors: found no channel {sensor}")
 
 
-def of_slap(name):
-    def take(file):
-        found = slap_rows.of_field(file)
-        if not found:
-            raise BadArtefact(f"{file.filename}: found no slap, expected a cycle with sensors of liner and block")
-        return found[name]
-    return take
-
-
-def slap_time(file, part):
+def liner_signal(file, to_hz):
+    """(time from firing TDC, acceleration of the liner, why it does not reach to_hz) of a field."""
     at = slap_rows.AT
     sensor = fields.pick_sensor(file, at, "liner") if at in file else None
     if not sensor:
         raise BadArtefact(f"{file.filename}: found no slap, expected a cycle with a sensor of the liner")
-    return slap.onset(*slap.band_limited(file, sensor, at), part)
+    hz = dataset(file, f"{at}/frequency_hz")
+    beyond = f"spectra to {hz[-1]:.4g} Hz of {to_hz:.4g} Hz" if to_hz > 2.0 * hz[-1] - hz[-2] else ""
+    return *slap.band_limited(file, sensor, at, to_hz=to_hz), beyond
+
+
+def slap_time(file, part, to_hz):
+    *signal, beyond = liner_signal(file, to_hz)
+    return Value(np.array([slap.onset(*signal, part)]), np.zeros(1), beyond)
+
+
+def slap_height(file, to_hz):
+    *signal, beyond = liner_signal(file, to_hz)
+    return Value(np.array([slap.peak(*signal)[1]]), np.zeros(1), beyond)
+
+
+def rings_until(file, to_hz):
+    *signal, beyond = liner_signal(file, to_hz)
+    return Value(np.array([slap.rung_out(*signal)]), np.zeros(1), beyond)
 
 
 def third_octaves(file, of, from_hz, to_hz):
@@ -154,7 +177,8 @@ def third_octaves(file, of, from_hz, to_hz):
     inside = (mid >= from_hz) & (mid <= to_hz)
     if not inside.any():
         raise BadArtefact(f"{file.filename}: found no third octave from {from_hz:g} to {to_hz:g} Hz")
-    return Value(levels[inside], mid[inside])
+    missing = to_hz < EVERYTHING and mid[-1] * THIRD <= to_hz
+    return Value(levels[inside], mid[inside], f"third octaves to {mid[-1]:g} Hz of {to_hz:g} Hz" if missing else "")
 
 
 def power_dba(file):
@@ -230,10 +254,10 @@ def curve(file, values, window):
 TAKE = {
     "frequency": Extractor(frequency, "Hz", {"number": (NUMBERS, ...)}),
     "line": Extractor(line, "m/s2", {"sensor": (TEXT, ...), "at_hz": (NUMBERS, ...)}),
-    "slap_time": Extractor(slap_time, "s", {"part": (NUMBERS, 0.75)}),
-    "slap_height": Extractor(of_slap("peak"), "m/s2"),
-    "rings_until": Extractor(of_slap("rings_until"), "s"),
-    "third_octaves": Extractor(third_octaves, DB, {"of": (TEXT, ...), "from_hz": (NUMBERS, 0.0), "to_hz": (NUMBERS, 1e9)}),
+    "slap_time": Extractor(slap_time, "s", {"part": (NUMBERS, 0.75), "to_hz": (NUMBERS, 0.0)}),
+    "slap_height": Extractor(slap_height, "m/s2", {"to_hz": (NUMBERS, 0.0)}),
+    "rings_until": Extractor(rings_until, "s", {"to_hz": (NUMBERS, 0.0)}),
+    "third_octaves": Extractor(third_octaves, DB, {"of": (TEXT, ...), "from_hz": (NUMBERS, 0.0), "to_hz": (NUMBERS, EVERYTHING)}),
     "power_dba": Extractor(power_dba, "dB(A)"),
     "erp_dba": Extractor(erp_dba, "dB(A)", {"panel": (TEXT, "exposed")}),
     "order": Extractor(of_order, "", {"of": (TEXT, ...), "order": (NUMBERS, ...)}),
