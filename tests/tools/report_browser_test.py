@@ -76,7 +76,7 @@ class Page(unittest.TestCase):
 
     def test_all_sections_are_there_and_every_plot_is_drawn(self):
         self.assertEqual(self.page.evaluate("[...document.querySelectorAll('main > section')].map(one => one.id)"),
-                         ["summary", "surface", "radiation", "sound", "sensors", "mechanism", "film", "drive", "speeds", "models", "certificates", "cost"])
+                         ["summary", "surface", "radiation", "sound", "sensors", "mechanism", "film", "drive", "speeds", "models", "accuracy", "certificates", "cost"])
         blank = self.page.evaluate("""(async () => { const found = [];
           for (const one of document.querySelectorAll("figure.plot canvas")) {
             if (!one.clientHeight) continue;

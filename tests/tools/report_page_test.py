@@ -57,7 +57,7 @@ class Page(Folder):
     def test_it_has_each_section_of_which_the_folder_has_data_and_needs_nothing_else(self):
         synthetic_page.write_folder(self.folder)
         data, _, text = self.page()
-        for name in ("summary", "surface", "radiation", "sound", "sensors", "mechanism", "film", "drive", "speeds", "models", "cost", "certificates"):
+        for name in ("summary", "surface", "radiation", "sound", "sensors", "mechanism", "film", "drive", "speeds", "models", "accuracy", "cost", "certificates"):
             self.assertTrue(data[name], name)
         found = re.search(r"""(?:src|href)=["']?(?:https?:|//)|@import|[^L]url\((?!#)|https?://(?!www\.w3\.org/2000/svg)""", text)
         self.assertIsNone(found and found.group())
@@ -70,8 +70,20 @@ class Page(Folder):
         synthetic.write_run(self.folder / "slap.run.h5")
         data, _, _ = self.page()
         self.assertTrue(data["mechanism"])
-        for name in ("surface", "radiation", "sound", "sensors", "film", "drive", "speeds", "models"):
+        for name in ("surface", "radiation", "sound", "sensors", "film", "drive", "speeds", "models", "accuracy"):
             self.assertIsNone(data[name], name)
+
+    def test_a_study_is_shown_with_its_pictures_verdicts_and_effects(self):
+        synthetic_page.write_folder(self.folder)
+        (self.folder / "study/proofs.csv").write_text("request,scene\nsound power 0.5,the study's\n")
+        data, _, text = self.page()
+        one, = data["accuracy"]
+        self.assertEqual([own["name"] for own in one["quantities"]], ["sound power", "height <slap>"])
+        self.assertEqual(base64.b64decode(one["quantities"][0]["picture"]), (self.folder / "study/sound-power.png").read_bytes())
+        self.assertIsNone(one["quantities"][1]["picture"])
+        self.assertEqual(one["quantities"][0]["sentences"], ["cells, sound power: 2 % costs 3 s", "steps, sound power: no value changes it"])
+        self.assertEqual((one["effects"][1][0], one["proofs"][1]), ("<friction>", ["sound power 0.5", "the study's"]))
+        self.assertNotIn("<friction>", text)
 
     def test_what_it_says_is_what_the_files_say(self):
         synthetic_page.write_folder(self.folder)

@@ -143,7 +143,7 @@ class Values(unittest.TestCase):
                 angle = np.linspace(0.0, 1440.0, 2881)
                 file["history/crank_angle_deg"], file["history/force"] = angle, np.where(angle < 700.0, 99.0, np.cos(np.radians(angle)))
                 file["history/c_tension_a_b"], file["history/c_tension_min"] = 7.0 + 0.0 * angle, 9.0 + 0.0 * angle
-                file["energy/terms/piston_liner lost"], file["energy/time"], file["energy/crank_angle_deg"] = angle**2, angle / 1440.0, angle
+                file["energy/terms/piston_liner lost"], file["energy/time"], file["energy/crank_angle_deg"] = -angle**2, angle / 1440.0, angle
             take = lambda reduce: quantities.extract(path, "dataset", {"path": "history/force", "reduce": reduce, "column": 0, "last_cycle_only": True})  # noqa: E731
             self.assertAlmostEqual(take("max").number(), 1.0)
             self.assertAlmostEqual(take("range").number(), 2.0)

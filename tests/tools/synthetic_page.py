@@ -5,6 +5,7 @@ import numpy as np
 import synthetic
 import synthetic_drive
 from clatter_tools.artefact import sha256
+from clatter_tools.plots import style
 from clatter_tools.report_page import skin
 
 SAMPLES = 720            # of a cycle
@@ -12,6 +13,7 @@ RPM = 2000.0
 LINES = 60
 STRONG = (9, 30)         # lines that the field has in full: 150 and 500 Hz
 MAC = "# MAC\nfull_hz,200.01,400.1\n200.0,0.999999,0.02\n400.0,0.03,0.9999\n"
+QUANTITIES = ("sound power", "height <slap>")
 OPTIONS = dict(dtype=h5py.string_dtype())
 
 
@@ -134,7 +136,7 @@ def write_panels(file, nodes, faces):
 
 
 def write_folder(folder):
-    """Runs "wet" and "dry" at one speed, "fast" at another; a reduced block; a chain drive; a comparison of modes."""
+    """Runs "wet" and "dry" at one speed, "fast" at another; a reduced block; a chain drive; a comparison of modes; a study."""
     write_rom(folder / "block.rom.h5")
     for name, title, loudness, rpm, film in (("wet", "engine, oil film", 1.0, RPM, True), ("dry", "engine, dry <contact>", 2.0, RPM, False),
                                              ("fast", "engine, oil film, fast", 1.5, 3000.0, True)):
@@ -143,6 +145,18 @@ def write_folder(folder):
     synthetic_drive.write_drive(folder / "oval.run.h5")
     (folder / "block.compare.txt").write_text(" mode full reduced error MAC\n 7  200.0  200.01  0.005  0.999999\n 8  400.0  400.1  0.025  0.9999\nall good\n")
     (folder / "block.mac.csv").write_text(MAC)
+    write_study(folder / "study")
+
+
+def write_study(folder):
+    """A study of two quantities, of which the first has a picture, and its effects."""
+    folder.mkdir()
+    with synthetic.new_file(folder / "study.h5", "study") as file:
+        for name, texts in (("quantity", QUANTITIES), ("verdict", [f"{one}: the budget is closed, sum over run 1.00" for one in QUANTITIES]),
+                            ("sentences", [f"cells, {one}: 2 % costs 3 s\nsteps, {one}: no value changes it" for one in QUANTITIES])):
+            file.create_dataset(f"said/{name}", data=texts, **OPTIONS)
+    style.save(style.figure()[0], folder / "sound-power.png")
+    (folder / "effects.csv").write_text("effect,switched,sound power [dB(A)],advice\n<friction>,off,-0.3,keep\n")
 
 
 def corners():

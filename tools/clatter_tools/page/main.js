@@ -44,6 +44,7 @@ await filmSection();
 await driveSection();
 await speedsSection();
 await modelsSection();
+accuracySection();
 certificatesSection();
 costSection();
 navigation();

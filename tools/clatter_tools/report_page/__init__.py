@@ -11,14 +11,14 @@ import numpy as np
 
 from .. import artefact
 from ..plots import style
-from . import (certificates, cost, drive, film_maps, mechanism, models, radiation, sensors, sound, speeds, summary, surface)
+from . import (accuracy, certificates, cost, drive, film_maps, mechanism, models, radiation, sensors, sound, speeds, summary, surface)
 from .folder import Folder
 from .pack import Pack, json_text
 
 PAGE = pathlib.Path(__file__).resolve().parent.parent / "page"
 # In this order: each uses only what is before it.
 SCRIPTS = ("element", "data", "theme", "runs", "save", "scale", "lines", "picture", "plot", "heat", "matrix", "renderer", "motion", "view", "sound",
-           "summary", "beside", "controls", "surface_save", "surface", "radiation", "listening", "sensors", "mechanism", "film", "drive", "speeds", "models", "cost", "main")
+           "summary", "beside", "controls", "surface_save", "surface", "radiation", "listening", "sensors", "mechanism", "film", "drive", "speeds", "models", "accuracy", "cost", "main")
 COLOURS = {"viridis": "viridis", "cividis": "cividis", "diverging": "RdBu_r"}  # safe for colour-blind eyes
 STEPS = 64
 
@@ -73,6 +73,7 @@ def collect(folder, pack):
         "drive": drive.collect(folder, pack),
         "speeds": speeds.collect(folder, pack),
         "models": models.collect(folder, pack),
+        "accuracy": accuracy.collect(folder),
         "cost": cost.collect(folder),
     }
 

@@ -220,7 +220,7 @@ def link_force(file, chain):
 def loss(file, element):
     lost, time, angle = (dataset(file, f"energy/{name}") for name in (f"terms/{element} lost", "time", "crank_angle_deg"))
     first = int(np.searchsorted(angle, angle[-1] - CYCLE_DEG - 1e-6)) if angle[-1] - angle[0] >= CYCLE_DEG else 0
-    return (lost[-1] - lost[first]) / (time[-1] - time[first])
+    return -(lost[-1] - lost[first]) / (time[-1] - time[first])  # terms are works on the bodies
 
 
 def of_dataset(file, path, reduce, column, last_cycle_only):

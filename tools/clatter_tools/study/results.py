@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 
 from ..artefact import CannotWrite, schema_of
-from . import convergence
+from . import convergence, findings
 
 
 def write(study):
@@ -53,6 +53,11 @@ def fill(study, path):
                 unit, meaning)
         for quantity, own in enumerate(plan.quantities):
             fill_quantity(study, quantity, own, put)
+        numbers, settings = range(len(plan.quantities)), range(len(plan.settings))
+        put("said/quantity", [own.name for own in plan.quantities], "1", "quantities, a row of the texts of this group each")
+        put("said/verdict", [findings.verdict(study, k) for k in numbers], "1", "whether the budget is closed")
+        put("said/sentences", ["\n".join(findings.sentence(study, k, number) for number in settings) for k in numbers], "1",
+            "what an error costs, a line for each setting")
         file.flush()
 
 
