@@ -72,7 +72,7 @@ class Proposals(StandIns):
             best, _ = proposal.propose(study, 0, within / reference, seconds)
             h, tau, n = (value[0] for value in best.values)
             write_given(self.given, 0.0, [h], [None, n], [None, tau])
-            proof = proposal.prove(study, 0, best, 2)
+            proof = proposal.prove(study, 0, best, 2, proposal.place_of(study, 0, 2))
             error, spent = proof.error, proof.seconds
             self.assertAlmostEqual(error, abs(exact(h, tau, n) - reference) / reference, delta=1e-12)
             self.assertLessEqual(error * reference, within)
@@ -119,12 +119,18 @@ class Interaction(StandIns):
 
     def test_a_proposal_is_proved_in_a_scene_that_the_study_has_not_seen(self):
         study = self.study()
-        best, _ = proposal.propose(study, 0, 0.1)
-        h, tau, n = (value[0] for value in best.values)
-        for both in (0.0, self.both):
-            write_given(self.given, both, [h], [None, n], [None, tau])
-        proof = proposal.prove(study, 0, best, 2, proposal.elsewhere(study.plan, ["slap.run.toml:more.both=0.0"]))
+        place = proposal.place_of(study, 0, 2, proposal.elsewhere(study.plan, ["slap.run.toml:more.both=0.0"]))
         reference = exact(0.5, 0.05, 8) - sum(line.errors[-1].number() for line in study.lines[0].values())
+        here = exact(0.5, 0.05, 8, self.both) - sum(line.errors[-1].number() for line in study.lines[0].values())
+        times = abs(exact() / reference - 1.0) / abs(exact(both=self.both) / here - 1.0)
+        self.assertLess(times, proposal.SMALLEST)  # what acts on both settings is most of the error in the study
+        self.assertEqual(place.times, proposal.SMALLEST)
+        best, _ = proposal.propose(study, 0, 0.1, times=place.times)
+        half, _ = proposal.propose(study, 0, 0.2)
+        self.assertEqual((best.values, best.expected), (half.values, proposal.SMALLEST * half.expected))
+        h, tau, n = (value[0] for value in best.values)
+        write_given(self.given, 0.0, [h], [None, n], [None, tau])
+        proof = proposal.prove(study, 0, best, 2, place)
         self.assertAlmostEqual(proof.error, abs(exact(h, tau, n) - reference) / reference, delta=1e-12)
         # The run without the effect is three seconds shorter, the other stages are not.
         self.assertAlmostEqual(proof.expected, best.seconds - 3.0 * best.factors["slap.run.h5"], delta=1e-12)

@@ -6,11 +6,12 @@ setting. Along a setting whose differences fall steadily with one sign they add 
 the difference from the next coarser one, and between two tested values with step sizes there is one more candidate in the middle (of
 logarithms), with interpolated difference and factors. Along any other setting a small difference is an accident of this scene: a value has the largest
 difference of itself and all finer ones, the finest that of the last refinement, no value in between is proposed, and these differences, whose
-signs say nothing, add in squares. Settings are chosen by the sum of all magnitudes.
+signs say nothing, add in squares. Settings are chosen by the sum of all magnitudes. Errors are against the limit of all settings, not against an exact value.
 Values with which the model does not state the quantity (a frequency above half the cut-off, bands above the spectra) are no candidates.
 
---at changes keys of the pipeline for the proof: another speed, load or clearance than that of the study, whose errors are then expected there too, and
-whose seconds in proportion to those of each stage of its base. The error is that from a run there with everything refined.
+--at changes keys of the pipeline: another speed, load or clearance than that of the study. Two runs are made there first, the base and everything
+refined. All differences are taken to be as many times larger as that of these two runs is, from SMALLEST times on (a smaller one may be an accident of
+signs), and the seconds of each stage in proportion to those of the base. The proof is a third run there, with the proposed settings.
 Each proof is a row of proofs.csv in the study's folder; --markdown shows them.
 """
 import csv
@@ -25,6 +26,7 @@ from .quantities import Value
 from .run import BASE
 
 MOST = 300_000  # combinations
+SMALLEST = 0.5  # of the errors elsewhere over those of the study
 
 
 @dataclasses.dataclass
@@ -110,10 +112,10 @@ def middle_value(one, other, h, finer):
     return tuple(found)
 
 
-def propose(study, quantity, within, seconds=math.inf):
+def propose(study, quantity, within, seconds=math.inf, times=1.0):
     """The cheapest Proposal whose error is at most `within` (in the units of errors) and whose seconds are at most `seconds`; where there is
-    none, (None, the one with the smallest error within the seconds, or of all)."""
-    scaled = lambda difference: study.scaled(quantity, difference)  # noqa: E731
+    none, (None, the one with the smallest error within the seconds, or of all). `times`: errors over those of the study."""
+    scaled = lambda difference: times * study.scaled(quantity, difference)  # noqa: E731
     lists = [candidates(study, quantity, number) for number in range(len(study.plan.settings))]
     lists = [[one for one in own if not any(one.worse_than(other, scaled) and not other.worse_than(one, scaled) for other in own)] for own in lists]
     if math.prod(map(len, lists)) > MOST:
@@ -132,7 +134,7 @@ def propose(study, quantity, within, seconds=math.inf):
             least = (key, chosen, most, spent)
         if most <= within and spent <= seconds and (best is None or (spent, most) < best[0]):
             best = ((spent, most), chosen, most, spent)
-    return tuple(proposal_of(study, quantity, base, one) if one else None for one in (best, least))
+    return tuple(proposal_of(scaled, base, one) if one else None for one in (best, least))
 
 
 def factors_of(stages, chosen):
@@ -144,7 +146,7 @@ def seconds_by(wanted, stages, factors):
     return sum(getattr(stage, wanted.cost) * factors[stage.name] for stage in stages)
 
 
-def proposal_of(study, quantity, base, found):
+def proposal_of(scaled, base, found):
     _, chosen, most, spent = found
     total, squares = chosen[0].difference.times(0.0), 0.0
     for one in chosen:
@@ -152,8 +154,51 @@ def proposal_of(study, quantity, base, found):
             total = total.plus(one.difference)
         else:
             squares += one.difference.size()**2
-    expected = math.hypot(total.size(), math.sqrt(squares))
-    return Proposal(tuple(one.value for one in chosen), study.scaled(quantity, expected), most, spent, factors_of(base, chosen))
+    return Proposal(tuple(one.value for one in chosen), scaled(math.hypot(total.size(), math.sqrt(squares))), most, spent, factors_of(base, chosen))
+
+
+@dataclasses.dataclass
+class Place:
+    """Where proposals are proved: files that differ there ([] in the study's own scene), stages of the base, the reference of the quantity, and errors
+    of the base there over those in the study."""
+    changes: list
+    stages: list
+    reference: Value
+    times: float
+
+
+def place_of(study, quantity, jobs, changes=()):
+    """The Place of changes, [((file, path of keys), value)], by runs of the base and of everything refined there; Failed where one cannot be made."""
+    wanted, base = study.plan, study.variants[BASE].values
+    known = study.values[quantity][BASE]
+    refined = study.budgets[quantity].refined
+    limit = convergence.total_reference(None, study.lines[quantity], known, None if refined is None else known.minus(refined))
+    if not changes:
+        return Place([], study.stages[BASE], limit, 1.0)
+    chosen = [variants.Variant("base", base), variants.Variant("refined", tuple(setting.values[-1] for setting in wanted.settings))]
+    made, artefacts = make_there(study, chosen, changes, jobs)
+    values = [made.values(own)[quantity] for own in artefacts]
+    if any(value is None for value in values):
+        raise run.Failed(f"{wanted.path}: --at: the base or the run with everything refined cannot be made there: see what the stage says above")
+    reference = values[1]
+    for line in study.lines[quantity].values():
+        reference = reference.minus(line.errors[-1])
+    there, here = (value.minus(own).size() / scale_of(wanted, quantity, own) for value, own in ((values[0], reference), (known, limit)))
+    return Place(list(changes), made.stages(artefacts[0]), reference, max(there / here, SMALLEST) if here > 0.0 else 1.0)
+
+
+def scale_of(wanted, quantity, reference):
+    """What differences are divided by for an error."""
+    return reference.size() if wanted.quantities[quantity].relative and reference.size() > 0.0 else 1.0
+
+
+def make_there(study, chosen, changes, jobs):
+    """(Making, artefacts of each) of variants with changed files."""
+    pipeline = run.pipeline_of(study.plan)
+    made = run.Making(study.plan, pipeline)
+    artefacts = [made.add(variants.changed_tables(study.plan, pipeline, study.variants[BASE].values, one, changes)) for one in chosen]
+    made.make([f"{one.folder}-there" if changes else one.folder for one in chosen], artefacts, jobs)
+    return made, artefacts
 
 
 @dataclasses.dataclass
@@ -164,28 +209,17 @@ class Proof:
     expected: float
 
 
-def prove(study, quantity, proposal, jobs, at=()):
-    """The Proof of a run with the proposed settings, `at`: [((file, path of keys), value)] of another scene; Failed where it cannot be made."""
-    wanted, base = study.plan, study.variants[BASE].values
-    pipeline = run.pipeline_of(wanted)
-    made = run.Making(wanted, pipeline)
-    chosen = [variants.Variant("base", base), variants.Variant("proposed", proposal.values)]
-    if at:
-        chosen.append(variants.Variant("refined", tuple(setting.values[-1] for setting in wanted.settings)))
-    artefacts = [made.add(variants.changed_tables(wanted, pipeline, base, one, at)) for one in chosen]
-    made.make([f"{one.folder}-there" if at else one.folder for one in chosen], artefacts, jobs)
-    values = [made.values(own)[quantity] for own in artefacts]
-    if any(value is None for value in values):
+def prove(study, quantity, proposal, jobs, place):
+    """The Proof of a run with the proposed settings at a Place; Failed where it cannot be made."""
+    wanted = study.plan
+    chosen = [variants.Variant("base", study.variants[BASE].values), variants.Variant("proposed", proposal.values)]
+    made, artefacts = make_there(study, chosen, place.changes, jobs)
+    value = made.values(artefacts[1])[quantity]
+    if value is None:
         raise run.Failed(f"{wanted.path}: the proposed settings cannot be run: see what the stage says above")
-    reference = study.references[quantity]
-    if at:
-        reference = values[2]
-        for line in study.lines[quantity].values():
-            reference = reference.minus(line.errors[-1])
-    error = values[1].minus(reference).size()
-    scale = reference.size() if wanted.quantities[quantity].relative and reference.size() > 0.0 else 1.0
-    base_there = [stage for stage in made.stages(artefacts[0]) if stage.name in proposal.factors]
-    return Proof(error / scale, run.cost_of(wanted, made.stages(artefacts[1]), quantity), seconds_by(wanted, base_there, proposal.factors))
+    error = value.minus(place.reference).size() / scale_of(wanted, quantity, place.reference)
+    base = [stage for stage in place.stages if stage.name in proposal.factors]
+    return Proof(error, run.cost_of(wanted, made.stages(artefacts[1]), quantity), seconds_by(wanted, base, proposal.factors))
 
 
 def elsewhere(wanted, texts):
@@ -233,14 +267,16 @@ def report(study, quantity, proposal):
 def answer(study, text, seconds, jobs, at=()):
     """`clatter study --within`: prints the proposal and its proof; `at`: texts of --at."""
     quantity, within = requested(study, text)
-    there = elsewhere(study.plan, at)
-    best, least = propose(study, quantity, within, seconds)
+    place = place_of(study, quantity, jobs, elsewhere(study.plan, at))
+    if at:
+        print(f"there: errors are expected {place.times:.2g} times as large as in the study", flush=True)
+    best, least = propose(study, quantity, within, seconds, place.times)
     if best is None:
         print("\n".join(["the nearest:", *report(study, quantity, least)]))
         raise run.Failed(f"{study.plan.path}: no settings of this study are within {findings.error_text(study, quantity, within)}"
                          f"{f' and {seconds:g} s' if math.isfinite(seconds) else ''}: add finer values, or ask for less")
     print("\n".join(report(study, quantity, best)), flush=True)
-    proof = prove(study, quantity, best, jobs, there)
+    proof = prove(study, quantity, best, jobs, place)
     print(f"the run{', ' if at else ''}{', '.join(at)}: {findings.error_text(study, quantity, proof.error)}, {findings.seconds_text(proof.seconds)}"
           f"{f' of {findings.seconds_text(proof.expected)} expected there' if at else ''}{'' if proof.error <= within else ': MORE THAN REQUESTED'}")
     keep_proof(study.plan, [text, ", ".join(at) or "the study's", ", ".join(f"{setting.name} {setting.label(value)}" for setting, value in zip(study.plan.settings, best.values)),
