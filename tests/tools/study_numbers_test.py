@@ -60,6 +60,14 @@ class Convergence(unittest.TestCase):
         # Bands that a coarse value lacks do not count.
         self.assertTrue(convergence.expected(line(curve(4.0), curve(2.0, 1.1), curve(1.0, 0.5)))[1])
 
+    def test_the_budget_of_a_curve_is_compared_where_the_run_differs_most(self):
+        curve = lambda *values: quantities.Value(np.array(values), np.arange(len(values)) + 1.0)  # noqa: E731
+        budget = lambda run, *sums: convergence.Budget([], curve(*sums), run and curve(*run), curve(*sums))  # noqa: E731
+        self.assertAlmostEqual(budget((1.0, -4.0), 5.0, -2.0).closure(), 0.5)
+        self.assertAlmostEqual(budget((1.0, -4.0), 5.0, 4.0).closure(), -1.0)
+        self.assertAlmostEqual(budget((2.0,), 3.0).closure(), 1.5)
+        self.assertTrue(np.isnan(budget((0.0, 0.0), 1.0, 1.0).closure()) and np.isnan(budget(None, 1.0).closure()))
+
     def test_the_pareto_front_is_what_nothing_beats(self):
         self.assertEqual(convergence.pareto([1.0, 2.0, 3.0, 2.5, 9.0], [1.0, 0.5, 0.6, 0.1, float("nan")]), [0, 1, 3])
 

@@ -5,7 +5,7 @@ import sys
 
 from .. import study as study_package
 from ..artefact import BadArtefact
-from . import effects, findings, markdown, proposal, quantities, results, run
+from . import effects, findings, markdown, plan, proposal, quantities, results, run
 
 
 def add_arguments(command):
@@ -24,13 +24,19 @@ def add_arguments(command):
 
 def write_study(options):
     """`clatter study`: makes what is missing, prints tables and sentences, writes study.h5, CSV and page; of effects sentences, CSV and page."""
-    jobs = max(1, options.jobs)
-    if options.effects and options.within:
+    jobs = options.jobs
+    if jobs < 1:
+        raise BadArtefact(f"-j: found {jobs}, expected a number from 1")
+    if options.effects and options.within is not None:
         raise BadArtefact("--within: found it beside --effects, expected one of them")
-    if options.seconds != float("inf") and not (options.within and options.seconds > 0.0):
+    if options.seconds != float("inf") and not (options.within is not None and options.seconds > 0.0):
         raise BadArtefact(f"--seconds: found {options.seconds:g}, expected a positive number, and --within")
-    if options.at and not options.within:
+    if options.at and options.within is None:
         raise BadArtefact(f"--at: found {options.at[0]} without --within, expected both")
+    if options.within is not None or options.at:
+        wanted = plan.read(options.study)
+        request = proposal.requested(wanted, options.within)
+        there = proposal.elsewhere(wanted, options.at)
     if options.effects:
         found = effects.make(options.study, jobs)
         print("\n".join(markdown.effects(found) if options.markdown else effects.report(found)))
@@ -38,11 +44,20 @@ def write_study(options):
         paths = [effects.write(found), effects_page.write(found)]
     else:
         study = run.make(options.study, jobs)
-        if options.within:
-            proposal.answer(study, options.within, options.seconds, jobs, options.at)
+        if options.within is not None:
+            proposal.answer(study, request, options.within, options.seconds, jobs, there, options.at)
             return
         print("\n".join([*markdown.study(study), "", *markdown.proofs(study.plan)] if options.markdown else findings.report(study)))
         paths = results.write(study)
         from . import page  # which loads matplotlib
         paths.append(page.write(study))
     print(f"\n{', '.join(map(str, paths))}", file=sys.stderr if options.markdown else sys.stdout)
+    if not options.effects:
+        report_missing(study)
+
+
+def report_missing(study):
+    """Failed, which names them, where variants could not be made."""
+    missing = [one.name for k, one in enumerate(study.variants) if any(known[k] is None for known in study.values)]
+    if missing:
+        raise run.Failed(f"{study.plan.path}: {len(missing)} of {len(study.variants)} variants lack a result: {', '.join(missing)}; see what their stages say above")

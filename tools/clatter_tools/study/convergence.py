@@ -100,11 +100,14 @@ class Budget:
     total: Value
 
     def closure(self):
-        """The sum over the difference of the refined run, of curves that of their sizes; nan without it or where it is 0."""
+        """The sum over the difference of the refined run, of curves where that is largest; nan without it or where it is 0."""
         if self.refined is None or not self.refined.size() > 0.0:
             return float("nan")
-        numbers = [one.number() if self.refined.is_number else one.size() for one in (self.sum, self.refined)]
-        return numbers[0] / numbers[1]
+        mine, others = self.refined.common(self.sum)
+        if not len(mine):
+            return float("nan")
+        largest = int(np.argmax(np.abs(self.refined.values[mine])))
+        return float(self.sum.values[others][largest] / self.refined.values[mine][largest])
 
 
 def budget(lines, base, refined, reference):

@@ -55,7 +55,7 @@ def sentence(study, quantity, number):
     found = points(study, quantity, number)
     where = f"{setting.name}, {own.name}"
     if not found:
-        return f"{where}: {'not known, its finest value could not be made' if number not in study.lines[quantity] else 'no value changes it'}"
+        return f"{where}: {'not known, no other value could be made' if number not in study.lines[quantity] else 'no value changes it'}"
     middle = next((row for row in found[1:-1] if row[0] == BASE), found[len(found) // 2])
     chosen = found if len(found) <= SHOWN else [found[0], middle, found[-1]]
     parts = [f"{error_text(study, quantity, error)} costs {seconds_text(seconds)} "
@@ -109,6 +109,8 @@ def verdict(study, quantity):
         else:
             said.insert(0, f"the budget is open, sum over run {ratio:.2f}: {'' if said else 'the settings act on each other or the quantity jumps'}".rstrip(": "))
     said += beyond(study, quantity)
+    said += [f"lacks the finest value of {study.plan.settings[number].name}, which could not be made: what is beyond the one before is not seen"
+             for number in study.lacking(quantity)]
     return f"{own.name}: {'; it '.join(said) or 'no run with everything refined'}"
 
 

@@ -79,6 +79,8 @@ def read(path, required="setting"):
         raise BadArtefact(f"{path}: found this name, expected one that ends in .toml")
     table = read_toml(path)
     check_keys(f"{path}", table, TOP)
+    if not isinstance(table.get("pipeline", "."), str):
+        raise BadArtefact(f"{path}: pipeline: found {table['pipeline']!r}, expected a folder as text")
     pipeline = path.parent / table.get("pipeline", ".")
     if not (pipeline / "Makefile").is_file():
         raise BadArtefact(f"{path}: pipeline: found no Makefile in {pipeline}, expected a folder with one")
@@ -95,6 +97,8 @@ def read(path, required="setting"):
             raise BadArtefact(f"{path}: {key}: found {value!r}, expected true or false")
     if cost not in COSTS:
         raise BadArtefact(f"{path}: cost: found {cost!r}, expected {' or '.join(COSTS)}")
+    if switches["reuse"] and cost != COSTS[0]:
+        raise BadArtefact(f"{path}: reuse: found true beside cost = {cost!r}, expected cost = {COSTS[0]!r}: of artefacts that are taken over no other is known")
     settings = [setting(f"{path}: setting[{k}]", one) for k, one in enumerate(entries["setting"])]
     wanted = [quantities.read(f"{path}: quantity[{k}]", one, path.parent) for k, one in enumerate(entries["quantity"])]
     effects = [effect(f"{path}: effect[{k}]", one) for k, one in enumerate(entries["effect"])]
@@ -102,7 +106,7 @@ def read(path, required="setting"):
         names = [one.name for one in found]
         for name in names:
             if names.count(name) > 1:
-                raise BadArtefact(f"{path}: found two {kind} named {name}, expected a name for each")
+                raise BadArtefact(f"{path}: found two tables [[{kind}]] named {name}, expected a name for each")
     keys = [key for one in settings for key in one.keys]
     for file, steps in keys:
         if keys.count((file, steps)) > 1:

@@ -26,6 +26,7 @@ from .quantities import Value
 from .run import BASE
 
 MOST = 300_000  # combinations
+SAME = 1.1      # times the seconds: less is noise
 SMALLEST = 0.5  # of the errors elsewhere over those of the study
 
 
@@ -60,7 +61,8 @@ def candidates(study, quantity, number):
     """Those of a setting; of one whose line is not known the base only."""
     setting, line = study.plan.settings[number], study.lines[quantity].get(number)
     base = {stage.name: getattr(stage, study.plan.cost) for stage in study.stages[BASE]}
-    if line is None:
+    matter = {stage.name for stage in study.stages[BASE] if study.plan.quantities[quantity].file in stage.needed_by} & study.affected(number)
+    if line is None or not matter:
         zero = study.values[quantity][BASE].minus(study.values[quantity][BASE])
         return [Candidate(study.variants[BASE].values[number], zero, {}, True)]
     names, found, sizes = study.affected(number), [], []
@@ -113,8 +115,8 @@ def middle_value(one, other, h, finer):
 
 
 def propose(study, quantity, within, seconds=math.inf, times=1.0):
-    """The cheapest Proposal whose error is at most `within` (in the units of errors) and whose seconds are at most `seconds`; where there is
-    none, (None, the one with the smallest error within the seconds, or of all). `times`: errors over those of the study."""
+    """The cheapest Proposal whose error is at most `within` (in the units of errors) and whose seconds are at most `seconds`, of those that cost about the
+    same the one with the smallest error; where there is none, (None, the one with the smallest error within the seconds, or of all). `times`: errors over those of the study."""
     scaled = lambda difference: times * study.scaled(quantity, difference)  # noqa: E731
     lists = [candidates(study, quantity, number) for number in range(len(study.plan.settings))]
     lists = [[one for one in own if not any(one.worse_than(other, scaled) and not other.worse_than(one, scaled) for other in own)] for own in lists]
@@ -125,15 +127,17 @@ def propose(study, quantity, within, seconds=math.inf, times=1.0):
         raise run.Failed(f"{study.plan.path}: found {math.prod(map(len, lists))} combinations of values, expected at most {MOST}")
     file = study.plan.quantities[quantity].file
     base = [stage for stage in study.stages[BASE] if file in stage.needed_by]
-    best = least = None
+    least, enough = None, []
     for chosen in itertools.product(*lists):
         most = scaled(sum(one.difference.size() for one in chosen))
         spent = seconds_by(study.plan, base, factors_of(base, chosen))
         key = (spent > seconds, most, spent)
         if least is None or key < least[0]:
             least = (key, chosen, most, spent)
-        if most <= within and spent <= seconds and (best is None or (spent, most) < best[0]):
-            best = ((spent, most), chosen, most, spent)
+        if most <= within and spent <= seconds:
+            enough.append(((most, spent), chosen, most, spent))
+    cheapest = min((one[3] for one in enough), default=0.0)
+    best = min((one for one in enough if one[3] <= SAME * cheapest), key=lambda one: one[0], default=None)
     return tuple(proposal_of(scaled, base, one) if one else None for one in (best, least))
 
 
@@ -176,7 +180,7 @@ def place_of(study, quantity, jobs, changes=()):
     if not changes:
         return Place([], study.stages[BASE], limit, 1.0)
     chosen = [variants.Variant("base", base), variants.Variant("refined", tuple(setting.values[-1] for setting in wanted.settings))]
-    made, artefacts = make_there(study, chosen, changes, jobs)
+    made, artefacts = make_there(study, quantity, chosen, changes, jobs)
     values = [made.values(own)[quantity] for own in artefacts]
     if any(value is None for value in values):
         raise run.Failed(f"{wanted.path}: --at: the base or the run with everything refined cannot be made there: see what the stage says above")
@@ -192,11 +196,14 @@ def scale_of(wanted, quantity, reference):
     return reference.size() if wanted.quantities[quantity].relative and reference.size() > 0.0 else 1.0
 
 
-def make_there(study, chosen, changes, jobs):
-    """(Making, artefacts of each) of variants with changed files."""
+def make_there(study, quantity, chosen, changes, jobs):
+    """(Making, artefacts of each) of variants with changed files, as far as a quantity needs them; BadArtefact where the changes change nothing."""
     pipeline = run.pipeline_of(study.plan)
-    made = run.Making(study.plan, pipeline)
+    made = run.Making(study.plan, pipeline, quantity)
     artefacts = [made.add(variants.changed_tables(study.plan, pipeline, study.variants[BASE].values, one, changes)) for one in chosen]
+    if changes and artefacts[0] == made.add({}):
+        names = ", ".join(f"{file}:{'.'.join(path)}" for (file, path), _ in changes)
+        raise BadArtefact(f"--at: found {names}, on which {study.plan.quantities[quantity].name} does not depend, expected a key that changes it")
     made.make([f"{one.folder}-there" if changes else one.folder for one in chosen], artefacts, jobs)
     return made, artefacts
 
@@ -213,8 +220,8 @@ def prove(study, quantity, proposal, jobs, place):
     """The Proof of a run with the proposed settings at a Place; Failed where it cannot be made."""
     wanted = study.plan
     chosen = [variants.Variant("base", study.variants[BASE].values), variants.Variant("proposed", proposal.values)]
-    made, artefacts = make_there(study, chosen, place.changes, jobs)
-    value = made.values(artefacts[1])[quantity]
+    made, artefacts = make_there(study, quantity, chosen, place.changes, jobs)
+    value = made.values(artefacts[1], "proposed")[quantity]
     if value is None:
         raise run.Failed(f"{wanted.path}: the proposed settings cannot be run: see what the stage says above")
     error = value.minus(place.reference).size() / scale_of(wanted, quantity, place.reference)
@@ -234,26 +241,42 @@ def elsewhere(wanted, texts):
         if parsed is None:
             raise BadArtefact(f"--at: found {one!r}, expected a key of a file and its value, as slap.run.toml:engine.speed_rpm=1500")
         own = plan.key_of("--at", key.strip())
+        if not (wanted.pipeline / own[0]).is_file():
+            raise BadArtefact(f"--at: found {own[0]}, expected a file of {wanted.pipeline}")
         if any(own in setting.keys for setting in wanted.settings):
             raise BadArtefact(f"--at: found {key.strip()}, which is a setting of {wanted.path}, expected another key")
         found.append((own, parsed))
     return found
 
 
-def requested(study, text):
-    """(quantity, error in the units of errors) of "sound power 0.5" or "height of the slap 2 %"."""
-    name, _, number = text.removesuffix("%").rstrip().rpartition(" ")
-    names = [one.name for one in study.plan.quantities]
-    try:
-        within = float(number)
-    except ValueError:
-        within = float("nan")
-    if name not in names or not 0.0 < within < math.inf:
-        raise BadArtefact(f"--within: found {text!r}, expected a quantity and an error, as \"{names[0]} 0.5\"; known: {', '.join(names)}")
-    quantity = names.index(name)
-    if text.endswith("%"):
-        return quantity, 0.01 * within * (1.0 if study.plan.quantities[quantity].relative else study.references[quantity].size())
-    return quantity, study.scaled(quantity, within)
+@dataclasses.dataclass
+class Request:
+    """A quantity and an error, in percent or in the quantity's unit."""
+    quantity: int
+    error: float
+    percent: bool
+
+    def within(self, study):
+        """The error in the units of errors."""
+        if self.percent:
+            return 0.01 * self.error * (1.0 if study.plan.quantities[self.quantity].relative else study.references[self.quantity].size())
+        return study.scaled(self.quantity, self.error)
+
+
+def requested(wanted, text):
+    """The Request of "sound power 0.5", "sound power 0.5 dB(A)" or "height of the slap 2 %"; `wanted`: plan of the study."""
+    for number, one in enumerate(wanted.quantities):
+        rest = text.removeprefix(f"{one.name} ").strip()
+        percent = rest.endswith("%")
+        try:
+            error = float(rest.removesuffix("%" if percent else one.unit).strip())
+        except ValueError:
+            continue
+        if text.startswith(f"{one.name} ") and 0.0 < error < math.inf:
+            return Request(number, error, percent)
+    first = wanted.quantities[0]
+    raise BadArtefact(f"--within: found {text!r}, expected a quantity and an error, as \"{first.name} 2 %\" or \"{f'{first.name} 0.5 {first.unit}'.rstrip()}\"; "
+                      f"known: {', '.join(one.name for one in wanted.quantities)}")
 
 
 def report(study, quantity, proposal):
@@ -264,10 +287,13 @@ def report(study, quantity, proposal):
             f"{findings.error_text(study, quantity, proposal.most)}), {findings.seconds_text(proposal.seconds)}"]
 
 
-def answer(study, text, seconds, jobs, at=()):
-    """`clatter study --within`: prints the proposal and its proof; `at`: texts of --at."""
-    quantity, within = requested(study, text)
-    place = place_of(study, quantity, jobs, elsewhere(study.plan, at))
+def answer(study, request, text, seconds, jobs, there=(), at=()):
+    """`clatter study --within`: prints the proposal and its proof; `text` says the request, `at` what is changed there."""
+    quantity, within = request.quantity, request.within(study)
+    lacking = [study.plan.settings[number].name for number in study.lacking(quantity)]
+    if lacking:
+        raise run.Failed(f"{study.plan.path}: the finest value of {', '.join(lacking)} could not be made: errors are not known; see what its stage says above")
+    place = place_of(study, quantity, jobs, there)
     if at:
         print(f"there: errors are expected {place.times:.2g} times as large as in the study", flush=True)
     best, least = propose(study, quantity, within, seconds, place.times)
@@ -283,6 +309,13 @@ def answer(study, text, seconds, jobs, at=()):
                             f"{findings.error_text(study, quantity, best.expected)} (at most {findings.error_text(study, quantity, best.most)}), {findings.seconds_text(proof.expected)}",
                             f"{findings.error_text(study, quantity, proof.error)}, {findings.seconds_text(proof.seconds)}",
                             f"{proof.error / best.expected:.2f}" if best.expected > 0.0 else "-", f"{proof.seconds / proof.expected:.2f}"])
+    exact = study.plan.quantities[quantity].exact
+    if exact is not None:
+        rest = study.scaled(quantity, place_of(study, quantity, jobs).reference.minus(exact).size())
+        print(f"beside the error of these settings: {findings.error_text(study, quantity, rest)} between the limit of all settings and the exact value")
+    if proof.error > within:
+        raise run.Failed(f"{study.plan.path}: found {findings.error_text(study, quantity, proof.error)}, more than the {findings.error_text(study, quantity, within)} "
+                         "asked for: ask for less, or add values to the study")
 
 
 PROOFS = ["request", "scene", "proposed", "expected", "the run", "error over expected", "seconds over expected"]

@@ -14,7 +14,7 @@
 | link_force | run | chain | largest tension of the joints of a chain over the last cycle [N] |
 | loss | run | element | mean power that a force element loses over the last cycle (energy/terms) [W]: friction and film of piston_liner |
 | cost | any | | seconds of the stage |
-| dataset | any | path, reduce, column, last_cycle | any dataset or attribute (group@name), reduced to a number or kept as a curve |
+| dataset | any | path, reduce, column, last_cycle_only | any dataset or attribute (group@name), reduced to a number or kept as a curve |
 
 reduce is one of first, last, min, max, largest (of magnitudes), range, mean, rms, curve. A curve of a history is at POINTS equal steps of the crank angle of
 its last cycle, or of its time.
@@ -107,11 +107,11 @@ class Extractor:
     keys: dict = dataclasses.field(default_factory=dict)
 
 
-NUMBERS, TEXT = (int, float), (str,)
+NUMBERS, WHOLE, TEXT = (int, float), (int,), (str,)
 
 
 def frequency(file, number):
-    wanted = int(number)
+    wanted = number
     if "frequency_hz" in file:
         found = dataset(file, "frequency_hz")
     else:
@@ -228,8 +228,10 @@ def of_dataset(file, path, reduce, column, last_cycle_only):
     if at:
         if group not in file or name not in file[group].attrs:
             raise BadArtefact(f"{file.filename}: {group}: found no attribute {name}")
-        return file[group].attrs[name]
-    values = np.asarray(dataset(file, path), float)
+        return numbers_of(file, path, file[group].attrs[name])
+    if path in file and not hasattr(file[path], "shape"):
+        raise BadArtefact(f"{file.filename}: {path}: found a group with {', '.join(file[path])}, expected a dataset, or an attribute as {path}@name")
+    values = numbers_of(file, path, dataset(file, path))
     if values.ndim == 2:
         if not 0 <= column < values.shape[1]:
             raise BadArtefact(f"{file.filename}: {path}: found {values.shape[1]} columns, expected column {column}")
@@ -239,6 +241,13 @@ def of_dataset(file, path, reduce, column, last_cycle_only):
     values = np.atleast_1d(values)
     window = last_cycle(file, len(values)) if last_cycle_only else slice(None)
     return REDUCTIONS[reduce](values[window]) if reduce != "curve" else curve(file, values, window)
+
+
+def numbers_of(file, path, values):
+    try:
+        return np.asarray(values, float)
+    except ValueError as error:
+        raise BadArtefact(f"{file.filename}: {path}: found text, expected numbers") from error
 
 
 def curve(file, values, window):
@@ -252,7 +261,7 @@ def curve(file, values, window):
 
 
 TAKE = {
-    "frequency": Extractor(frequency, "Hz", {"number": (NUMBERS, ...)}),
+    "frequency": Extractor(frequency, "Hz", {"number": (WHOLE, ...)}),
     "line": Extractor(line, "m/s2", {"sensor": (TEXT, ...), "at_hz": (NUMBERS, ...)}),
     "slap_time": Extractor(slap_time, "s", {"part": (NUMBERS, 0.75), "to_hz": (NUMBERS, 0.0)}),
     "slap_height": Extractor(slap_height, "m/s2", {"to_hz": (NUMBERS, 0.0)}),
@@ -264,8 +273,9 @@ TAKE = {
     "link_force": Extractor(link_force, "N", {"chain": (TEXT, ...)}),
     "loss": Extractor(loss, "W", {"element": (TEXT, ...)}),
     "cost": Extractor(lambda file: totals(file)[0], "s"),
-    "dataset": Extractor(of_dataset, "", {"path": (TEXT, ...), "reduce": (TEXT, "last"), "column": (NUMBERS, 0), "last_cycle_only": ((bool,), True)}),
+    "dataset": Extractor(of_dataset, "", {"path": (TEXT, ...), "reduce": (TEXT, "last"), "column": (WHOLE, 0), "last_cycle_only": ((bool,), True)}),
 }
+KINDS = {NUMBERS: "a number", WHOLE: "a whole number", TEXT: "a text", (bool,): "true or false"}
 COMMON = {"name", "file", "take", "unit", "error", "exact", "small"}
 SMALL = 0.01       # relative change that does not matter
 SMALL_DB = 0.1
@@ -295,7 +305,7 @@ def own_keys(where, entry, common):
         if value is ...:
             raise BadArtefact(f"{where}.{key}: not found, expected it for {take}")
         if not isinstance(value, kinds) or (isinstance(value, bool) and bool not in kinds) or value == "":
-            raise BadArtefact(f"{where}.{key}: found {value!r}, expected a {'number' if kinds == NUMBERS else 'text' if kinds == TEXT else 'true or false'}")
+            raise BadArtefact(f"{where}.{key}: found {value!r}, expected {KINDS[kinds]}")
         found[key] = value
     if take == "slap_time" and not 0.0 < found["part"] <= 1.0:
         raise BadArtefact(f"{where}.part: found {found['part']!r}, expected a number above 0, at most 1")
@@ -313,6 +323,8 @@ def read(where, entry, folder):
     if not entry["file"].endswith(".h5") or "/" in entry["file"]:
         raise BadArtefact(f"{where}.file: found {entry['file']}, expected an artefact of the pipeline's folder, as slap.field.h5")
     unit = entry.get("unit", TAKE[take].unit)
+    if not isinstance(unit, str):
+        raise BadArtefact(f"{where}.unit: found {unit!r}, expected a text")
     error = entry.get("error", "absolute" if unit.startswith(DB) or take in ("slap_time", "rings_until") or keys.get("reduce") == "curve" else "relative")
     if error not in ("relative", "absolute"):
         raise BadArtefact(f"{where}.error: found {error!r}, expected relative or absolute")

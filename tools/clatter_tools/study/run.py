@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A study from its file to its numbers: what every variant gives and costs, lines along the settings, budgets."""
 import dataclasses
+import sys
 
 from .. import artefact
 from ..artefact import BadArtefact
@@ -74,6 +75,12 @@ class Study:
         size = self.references[quantity].size()
         return size if self.plan.quantities[quantity].relative and size > 0.0 else 1.0
 
+    def lacking(self, quantity):
+        """Numbers of the settings whose finest value could not be made: what is beyond the finest one that could is not seen."""
+        base, known = self.variants[BASE].values, self.values[quantity]
+        return [number for number, one in enumerate(self.plan.settings)
+                if any(known[k] is None for k, own in enumerate(self.variants) if own.values == base[:number] + (one.values[-1],) + base[number + 1:])]
+
     def size(self, quantity):
         """That of the reference, in the units of errors."""
         return self.scaled(quantity, self.references[quantity].size())
@@ -97,11 +104,11 @@ def pipeline_of(wanted):
 
 
 class Making:
-    """The artefacts of variants: those of the quantities' files of each."""
+    """The artefacts of variants: those of the quantities' files of each; of one quantity only where its number is given."""
 
-    def __init__(self, wanted, pipeline):
+    def __init__(self, wanted, pipeline, quantity=None):
         self.wanted, self.pipeline = wanted, pipeline
-        self.targets = list(dict.fromkeys(one.file for one in wanted.quantities))
+        self.targets = list(dict.fromkeys(one.file for one in wanted.quantities)) if quantity is None else [wanted.quantities[quantity].file]
         self.store = store.Store(pipeline, wanted.output)
 
     def add(self, changed):
@@ -110,24 +117,37 @@ class Making:
         return [files.artefact(target) for target in self.targets]
 
     def make(self, folders, artefacts, jobs):
-        """Makes what is missing of variants, the base first; Failed where it is the base."""
+        """Makes what is missing of variants, the base first; Failed where it cannot be made, BadArtefact where it has not what a quantity takes."""
         with self.store.alone():
             if self.wanted.reuse:
                 self.store.reuse(artefacts[BASE])
             self.store.prepare()
             print(f"{self.wanted.path}: {len(artefacts)} variants, {len(self.store.made)} artefacts, {len(self.store.missing())} to be made", flush=True)
+            self.store.make(jobs, [one for one in artefacts[BASE] if not self.store.path(one).exists()])
+            missing = [one for one in artefacts[BASE] if not self.store.path(one).exists()]
+            if missing:
+                raise Failed(f"{self.wanted.path}: the base has no {missing[0].name}: see what its stage says above; the same command resumes")
+            self.values(artefacts[BASE])
             if self.store.missing():
                 self.store.make(jobs)
             for folder, own in zip(folders, artefacts):
                 self.store.show(folder, own)
-        missing = [one for one in artefacts[BASE] if not self.store.path(one).exists()]
-        if missing:
-            raise Failed(f"{self.wanted.path}: the base has no {missing[0].name}: see what its stage says above; the same command resumes")
 
-    def values(self, own):
-        """[Value or None] of the quantities of a variant."""
+    def values(self, own, folder=""):
+        """[Value or None] of the quantities of a variant: None where its file could not be made or, with a message that names the variant's `folder`, has
+        not what the quantity takes, which in the base (without a folder) is a BadArtefact."""
         files = {one.name: self.store.path(one) for one in own}
-        return [one.of(files[one.file]) if files[one.file].exists() else None for one in self.wanted.quantities]
+        return [self.value(one, files[one.file], folder) if files.get(one.file, self.wanted.path.parent / "-").exists() else None for one in self.wanted.quantities]
+
+    def value(self, quantity, path, folder):
+        try:
+            return quantity.of(path)
+        except BadArtefact as error:
+            text = f"{self.wanted.path}: {quantity.name}{f', {folder}' if folder else ''}: {error}"
+            if not folder:
+                raise BadArtefact(text) from error
+            print(text, file=sys.stderr)
+            return None
 
     def stages(self, own):
         """The stages of a variant, each once; none where it is not complete."""
@@ -153,7 +173,8 @@ def check_settings(wanted, found, artefacts):
 
 def numbers(wanted, found, made, artefacts):
     """The Study of what was made."""
-    values, stages = [made.values(own) for own in artefacts], [made.stages(own) for own in artefacts]
+    values = [made.values(own, one.folder if k != BASE else "") for k, (one, own) in enumerate(zip(found, artefacts))]
+    stages = [made.stages(own) for own in artefacts]
     study = Study(wanted, found, [list(one) for one in zip(*values)], stages)
     for quantity, own in enumerate(wanted.quantities):
         known = study.values[quantity]
@@ -171,7 +192,7 @@ def is_refined(wanted, variant):
 
 
 def line_of(study, number, known):
-    """The Line of a setting, None where its finest value or all others are missing."""
+    """The Line of a setting, of the values that could be made; None where there is one only."""
     setting, base = study.plan.settings[number], study.variants[BASE].values
     rows = []
     for k, value in enumerate(setting.values):
@@ -179,9 +200,7 @@ def line_of(study, number, known):
         variant = next(j for j, one in enumerate(study.variants) if one.values == values)
         if known[variant] is not None:
             rows.append((variant, setting.sizes[k] if setting.sizes else None, known[variant]))
-        elif k == len(setting.values) - 1:
-            return None
-    if len(rows) < 2 and rows[0][0] == BASE:
+    if not rows or [one[0] for one in rows] == [BASE]:
         return None
     ids, sizes, values = (list(one) for one in zip(*rows))
     return convergence.line(setting.reference, ids, sizes if setting.sizes else None, values, known[BASE])

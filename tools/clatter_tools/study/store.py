@@ -125,6 +125,7 @@ class Store:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError as error:
                 raise BadArtefact(f"{self.folder}: another clatter study works in this folder, expected one at a time") from error
+            self.lock = lock
             yield
 
     def makefile(self):
@@ -136,10 +137,15 @@ class Store:
                                      pipeline=quoted(self.pipeline.folder.resolve()), old="".join(f"-o {name} " for name in one.inputs)))
         return "\n".join(rules)
 
-    def make(self, jobs):
-        """Makes what is missing; False where some of it could not be made, KeyboardInterrupt where it was interrupted."""
-        process = subprocess.Popen(["make", "--no-print-directory", "-k", f"-j{jobs}", "-f", "study.mk", "all"], cwd=self.folder, env=environment(),
-                                   start_new_session=True)  # make does not pass a signal on through the shells of its rules: it goes to the whole group
+    def make(self, jobs, only=None):
+        """Makes what is missing, of artefacts [Made] or all; False where some of it could not be made, KeyboardInterrupt where it was interrupted."""
+        targets = ["all"] if only is None else [f"made/{one.folder}/{one.name}" for one in only]
+        if not targets:
+            return True
+        # Make does not pass a signal on through the shells of its rules: it goes to the whole group. It has the lock as long as it runs, also after this
+        # process was killed.
+        process = subprocess.Popen(["make", "--no-print-directory", "-k", f"-j{jobs}", "-f", "study.mk", *targets], cwd=self.folder, env=environment(),
+                                   start_new_session=True, pass_fds=(self.lock.fileno(),))
         before = signal.signal(signal.SIGTERM, lambda *_: os.killpg(process.pid, signal.SIGTERM))
         interrupted = False
         try:

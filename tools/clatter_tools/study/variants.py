@@ -6,6 +6,7 @@ import re
 
 from ..artefact import BadArtefact
 from . import toml_text
+from .plan import step_sizes
 
 BASE, REFINED = "base", "all refined"
 
@@ -24,8 +25,25 @@ class Variant:
 
 
 def base_values(plan, pipeline):
-    """The value of each setting in the folder as it is."""
-    return tuple(base_of(plan, pipeline, one) for one in plan.settings)
+    """The value of each setting in the folder as it is. A setting whose values have step sizes gets it among its values."""
+    found = tuple(base_of(plan, pipeline, one) for one in plan.settings)
+    for setting, value in zip(plan.settings, found):
+        insert(plan, setting, value)
+    return found
+
+
+def insert(plan, setting, value):
+    """A value at its place between the values of a setting; BadArtefact where it is finer than the finest."""
+    if value in setting.values or not setting.sizes or setting.sizes != step_sizes(setting.values):
+        return
+    for k in range(len(setting.values) + 1):
+        values = setting.values[:k] + [value] + setting.values[k:]
+        if step_sizes(values):
+            if k == len(setting.values):
+                raise BadArtefact(f"{plan.path}: {setting.name}: found {setting.label(value)} in the base, finer than the finest value {setting.label(values[-2])}, "
+                                  "expected finer values than the base's")
+            setting.values, setting.sizes = values, step_sizes(values)
+            return
 
 
 def base_of(plan, pipeline, setting):
