@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter collect`: levels, orders, slaps and cost of all runs of a sweep in one file."""
-import os
 import pathlib
 import tomllib
 
@@ -8,7 +7,9 @@ import h5py
 import numpy as np
 
 from . import artefact, chains, orders, slap_rows, sweep_list
-from .artefact import BadArtefact, CannotWrite, schema_of, text
+from .artefact import BadArtefact, schema_of, text
+from .export.patient_file import PatientFile
+from .whole_file import whole_file
 
 AT = "analysis/cycle"
 UNFINISHED = ("failed", "interrupted")
@@ -122,15 +123,12 @@ class Sweep:
 
 def write(sweep, path):
     """Writes the file, complete or not at all."""
-    part = pathlib.Path(f"{path}.part")
-    try:
-        with h5py.File(part, "w") as file:
-            fill(sweep, file)
-            file.flush()
-        os.replace(part, path)
-    except OSError as error:
-        part.unlink(missing_ok=True)
-        raise CannotWrite(f"{path}: cannot be written: {error}") from error
+    with whole_file(path) as part, PatientFile(part) as stream:
+        try:
+            with h5py.File(stream, "w") as file:
+                fill(sweep, file)
+        finally:
+            stream.check()
 
 
 def fill(sweep, file):

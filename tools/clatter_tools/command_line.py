@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The command `clatter`: one subcommand per task, exit codes like the stages' (0 done, 2 bad input, 3 interrupted, 4 file or disk error)."""
 import argparse
+import errno
 import os
 import pathlib
 import signal
@@ -108,9 +109,33 @@ def write_report(options):
     print(f"{path}: {path.stat().st_size / 1e6:.1f} MB")
 
 
+def finish_standard_output():
+    """Writes what is left for standard output; CannotWrite when it, or a line before, could not be written (hard case P16)."""
+    try:
+        sys.stdout.flush()
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # of what is left Python would complain at its end
+        if not isinstance(error, BrokenPipeError):
+            raise CannotWrite(f"standard output: cannot be written: {error.strerror}") from error
+
+
 def main(arguments, rules):
     """Runs one command line; returns the exit code."""
     options = parser().parse_args(arguments)
+    code = run_command(options, rules)
+    if sys.stdout is None:
+        return code
+    try:
+        finish_standard_output()
+    except CannotWrite as error:
+        if code == 0:
+            print(f"clatter: error: {error}", file=sys.stderr)
+            return 4
+    return code
+
+
+def run_command(options, rules):
+    """Runs one command; returns the exit code."""
     try:
         if options.command == "info":
             show = info.print_verified if options.verify else info.print_config if options.config else info.print_info
@@ -160,6 +185,9 @@ def main(arguments, rules):
     except KeyboardInterrupt:
         return 3
     except (OSError, RuntimeError, KeyError) as error:
+        if isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EFBIG, errno.EDQUOT):  # of files: CannotWrite
+            print(f"clatter: error: standard output: cannot be written: {error.strerror}", file=sys.stderr)
+            return 4
         if "checksum" not in str(error):
             raise
         print(f"clatter: error: a file was damaged after it was written (clatter info --verify names the dataset): {error}",

@@ -2,10 +2,9 @@
 """The pressure table of a motored engine, as CSV for [gas] of a scene."""
 import dataclasses
 import math
-import os
-import pathlib
 
-from .artefact import BadArtefact, CannotWrite
+from .artefact import BadArtefact
+from .whole_file import whole_file
 
 DEGREE = math.pi / 180.0
 
@@ -114,16 +113,8 @@ def cycle_of(options):
 
 def write_text(path, text):
     """Writes a table complete or not at all; CannotWrite."""
-    part = f"{path}.part"
-    try:
-        with open(part, "w", encoding="ascii") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(part, path)
-    except OSError as error:
-        pathlib.Path(part).unlink(missing_ok=True)
-        raise CannotWrite(f"{path}: cannot be written: {error.strerror}") from error
+    with whole_file(path) as part:
+        part.write_text(text, encoding="ascii")
 
 
 def write_motored_cycle(options):

@@ -3,12 +3,12 @@
 import csv
 import dataclasses
 import math
-import os
 
 import numpy as np
 
 from . import parameters
-from .artefact import BadArtefact, CannotWrite, dataset, open_artefact, text
+from .artefact import BadArtefact, dataset, open_artefact, text
+from .whole_file import whole_file
 
 HEAD = ("sound power [dB(A) re 1 pW]", "slap after FTDC [ms]", "rings until [ms]", "liner peak [m/s²]", "block peak [m/s²]", "liner rms above 2 kHz [m/s²]")
 BANDS_FROM_HZ, BANDS_TO_HZ = 280.0, 5700.0
@@ -119,20 +119,13 @@ def write_csv(path, rows):
     mid = rows[0].mid_hz
     head = ["name", "title", "sound power [dB(A) re 1 pW]", "slap [s]", "rings until [s]", "liner peak [m/s2]", "block peak [m/s2]",
             "liner rms above 2 kHz [m/s2]", "seconds"] + [f"{part} {hz:.4g} Hz [dB re 1e-6 m/s2]" for part in ("liner", "block") for hz in mid]
-    part_path = f"{path}.part"
-    try:
-        with open(part_path, "w", newline="", encoding="utf-8") as stream:
-            writer = csv.writer(stream)
-            writer.writerow(head)
-            for row in rows:
-                numbers = [row.dba, *(row.slap[name] for name in ("time", "rings_until", "peak", "block_peak", "high_rms")), row.seconds]
-                levels = [level for part in ("liner", "block") for level in row.bands[part][:len(mid)]]
-                writer.writerow([row.name, row.title, *(f"{value:.6g}" for value in [*numbers, *levels])])
-            stream.flush()
-            os.fsync(stream.fileno())
-        os.replace(part_path, path)
-    except OSError as error:
-        raise CannotWrite(f"{path}: cannot be written: {error.strerror}") from error
+    with whole_file(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream)
+        writer.writerow(head)
+        for row in rows:
+            numbers = [row.dba, *(row.slap[name] for name in ("time", "rings_until", "peak", "block_peak", "high_rms")), row.seconds]
+            levels = [level for part in ("liner", "block") for level in row.bands[part][:len(mid)]]
+            writer.writerow([row.name, row.title, *(f"{value:.6g}" for value in [*numbers, *levels])])
 
 
 def write_slaps(options):

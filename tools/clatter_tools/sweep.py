@@ -10,6 +10,7 @@ import tomllib
 
 from . import parameters
 from .artefact import BadArtefact, CannotWrite
+from .whole_file import whole_file
 
 MOST = 100_000  # scenes
 KEYS = re.compile(r"""((?:[\w-]+|"[^"]*")(?:\.(?:[\w-]+|"[^"]*"))*)=(.+)""", re.S)
@@ -87,9 +88,8 @@ def write_changed(path, text):
     """Writes a file, complete or not at all, unless it has this text already, so that make sees only what is new."""
     if path.exists() and path.read_text(encoding="utf-8") == text:
         return
-    part = path.with_name(path.name + ".part")
-    part.write_text(text, encoding="utf-8")
-    os.replace(part, path)
+    with whole_file(path) as part:
+        part.write_text(text, encoding="utf-8")
 
 
 def scene_text(keys, values, title=None):

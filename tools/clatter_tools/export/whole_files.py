@@ -6,16 +6,9 @@ import pathlib
 import shutil
 
 from ..artefact import BadArtefact, CannotWrite
+from ..whole_file import sync
 
 MARK = "clatter.txt"  # in a folder that a hand-off wrote, so that another hand-off may replace it
-
-
-def sync(path):
-    handle = os.open(path, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
 
 
 def remove(path):

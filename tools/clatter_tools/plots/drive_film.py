@@ -2,12 +2,12 @@
 """The motion of a chain drive: a page of HTML that plays one engine cycle, and numbered frames for a video."""
 import base64
 import json
-import os
 import pathlib
 from xml.sax.saxutils import escape
 
 import numpy as np
 
+from ..whole_file import whole_file
 from . import drive, style
 
 UNIT = 1e-5    # of the page's coordinates [m]
@@ -17,17 +17,18 @@ COLOURS = 64   # of the scale of tensions
 
 def write_frames(chain, title, rpm, folder, count):
     """PNG files frame_0001.png, ... of so many instants of the last cycle, or of all that are recorded; returns their number."""
+    folder = pathlib.Path(folder)
     window = chain.last_cycle()
     chosen = window[np.unique(np.linspace(0, len(window) - 1, min(count, len(window))).round().astype(int))]
     picture = drive.Picture(chain, title, rpm)
-    folder = pathlib.Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
     # Programs that make videos need even numbers of pixels.
     dots = 100.0
     pixels = 2.0 * np.ceil(0.5 * dots * picture.figure.get_size_inches())
     picture.figure.set_size_inches(*(pixels + 0.5) / dots)  # of which the integer part counts
     for number, instant in enumerate(chosen, 1):
-        picture.show(instant).savefig(folder / f"frame_{number:04d}.png", dpi=dots)
+        with whole_file(folder / f"frame_{number:04d}.png") as part:
+            part.parent.mkdir(parents=True, exist_ok=True)
+            picture.show(instant).savefig(part, format="png", dpi=dots)
     style.plt.close(picture.figure)
     return len(chosen)
 
@@ -123,10 +124,8 @@ def scale(low, high):
 
 
 def write_page(chain, title, rpm, output):
-    output = pathlib.Path(output)
-    part = output.with_name(output.name + ".part")
-    part.write_text(page(chain, title, rpm), encoding="utf-8")
-    os.replace(part, output)
+    with whole_file(output) as part:
+        part.write_text(page(chain, title, rpm), encoding="utf-8")
 
 
 PAGE = (pathlib.Path(__file__).parent / "drive_film.html").read_text(encoding="utf-8")

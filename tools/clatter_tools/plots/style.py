@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The common style: sizes, colours, labels, and saving of pictures."""
-import os
 import pathlib
 
 import matplotlib
@@ -10,6 +9,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import matplotlib.ticker  # noqa: E402
 
 from ..artefact import BadArtefact, open_artefact, text  # noqa: E402
+from ..whole_file import whole_file  # noqa: E402
 
 # Colour-blind safe (Okabe and Ito 2008); a run keeps its colour in all pictures of one call.
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
@@ -32,12 +32,10 @@ def figure(rows=1, columns=1, height=2.6, sharex=False, **options):
 
 def save(figure_, output):
     """Writes a PNG, or an SVG by the name of the file; it appears only when it is complete."""
-    output = pathlib.Path(output)
-    output.parent.mkdir(parents=True, exist_ok=True)
-    part = output.with_name(output.name + ".part")
-    figure_.savefig(part, format="svg" if output.suffix.lower() == ".svg" else "png")
+    with whole_file(output) as part:
+        part.parent.mkdir(parents=True, exist_ok=True)
+        figure_.savefig(part, format="svg" if pathlib.Path(output).suffix.lower() == ".svg" else "png")
     plt.close(figure_)
-    os.replace(part, output)
 
 
 def open_all(paths, kind):

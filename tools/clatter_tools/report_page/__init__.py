@@ -3,7 +3,6 @@
 
 Each module collects the data of one section; the folder `page` beside this one has the page itself: template, style, scripts.
 """
-import os
 import pathlib
 from xml.sax.saxutils import escape
 
@@ -11,6 +10,7 @@ import numpy as np
 
 from .. import artefact
 from ..plots import style
+from ..whole_file import whole_file
 from . import (accuracy, certificates, cost, drive, film_maps, mechanism, models, radiation, sensors, sound, speeds, summary, surface)
 from .folder import Folder
 from .pack import Pack, json_text
@@ -28,13 +28,9 @@ def write_page(folder, output=None):
     found = Folder(folder)
     output = pathlib.Path(output) if output else found.path / "report.html"
     text = page(found)
-    part = output.with_name(output.name + ".part")
-    try:
-        output.parent.mkdir(parents=True, exist_ok=True)
+    with whole_file(output) as part:
+        part.parent.mkdir(parents=True, exist_ok=True)
         part.write_text(text, encoding="utf-8")
-        os.replace(part, output)
-    except OSError as error:
-        raise artefact.CannotWrite(f"{output}: cannot be written: {error.strerror}") from error
     return output
 
 
