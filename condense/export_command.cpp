@@ -16,18 +16,17 @@ struct ExportArguments {
 };
 
 void export_part(const ExportArguments& a, const CommonOptions& common) {
+  std::vector<std::filesystem::path> files;
   for (const std::filesystem::path& path : a.outputs)
-    for (const std::filesystem::path& file : exported_files(path))
+    for (const std::filesystem::path& file : exported_files(path)) {
       if (file != path) will_write("output", file);
+      files.push_back(file);
+    }
   const rom::ReducedModel reduced = rom::read_reduced_model(a.model, false);
-  std::vector<std::filesystem::path> written;
-  for (const std::filesystem::path& path : a.outputs)
-    for (const std::filesystem::path& file : export_reduced(reduced, path)) written.push_back(file);
-  finish_exports({fmt::format("{}: {} coordinates", reduced.name, reduced.size()),
-                  a.outputs.front(),
-                  written,
-                  {a.model}},
-                 common);
+  write_exports({a.outputs.front(), files, {a.model}}, common, [&] {
+    for (const std::filesystem::path& path : a.outputs) export_reduced(reduced, path);
+    return fmt::format("{}: {} coordinates", reduced.name, reduced.size());
+  });
 }
 
 }  // namespace

@@ -22,13 +22,10 @@ void export_finished_mesh(const ExportArguments& a, const CommonOptions& common)
   for (auto& [name, surface] : mesh.surfaces)  // as after meshing; the file has them by name
     std::sort(surface.faces.begin(), surface.faces.end(),
               [](const FaceBlock& one, const FaceBlock& other) { return one.type < other.type; });
-  for (const auto& path : a.outputs) export_mesh(mesh, path);
-  finish_exports(
-      {fmt::format("{}: {} cells, {} nodes", mesh.name, mesh.cell_count(), mesh.nodes.rows()),
-       a.outputs.front(),
-       a.outputs,
-       {a.mesh}},
-      common);
+  write_exports({a.outputs.front(), a.outputs, {a.mesh}}, common, [&] {
+    for (const auto& path : a.outputs) export_mesh(mesh, path);
+    return fmt::format("{}: {} cells, {} nodes", mesh.name, mesh.cell_count(), mesh.nodes.rows());
+  });
 }
 
 }  // namespace

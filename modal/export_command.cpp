@@ -14,10 +14,12 @@ struct ExportArguments {
 
 void export_to_paraview(const ExportArguments& a, const CommonOptions& common) {
   check_result_exports(a.outputs);
-  export_results(a.results, a.cells, a.outputs);
   std::vector<std::filesystem::path> inputs{a.results};
   if (!a.cells.empty()) inputs.push_back(a.cells);
-  finish_exports({a.results.string(), a.outputs.front(), a.outputs, inputs}, common);
+  write_exports({a.outputs.front(), a.outputs, inputs}, common, [&] {
+    export_results(a.results, a.cells, a.outputs);
+    return a.results.string();
+  });
 }
 
 }  // namespace

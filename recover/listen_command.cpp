@@ -23,14 +23,11 @@ void listen(const ListenArguments& a, const CommonOptions& common) {
         "command line: found --seconds {:g} --full-scale-pa {:g}, expected 0 to {:g} s and a "
         "positive pressure",
         a.rule.seconds, a.rule.full_scale_pa, kLongest));
-  const WavSummary made = write_wav(a.field, a.microphone, a.rule, a.wav);
-  finish_exports(
-      {fmt::format("{}, up to {:g} Hz: peak {:.3g} Pa, RMS {:.3g} Pa, full scale {:.4g} Pa",
-                   a.microphone, made.to_hz, made.peak_pa, made.rms_pa, made.full_scale_pa),
-       a.wav,
-       {a.wav},
-       {a.field}},
-      common);
+  write_exports({a.wav, {a.wav}, {a.field}}, common, [&] {
+    const WavSummary made = write_wav(a.field, a.microphone, a.rule, a.wav);
+    return fmt::format("{}, up to {:g} Hz: peak {:.3g} Pa, RMS {:.3g} Pa, full scale {:.4g} Pa",
+                       a.microphone, made.to_hz, made.peak_pa, made.rms_pa, made.full_scale_pa);
+  });
 }
 
 }  // namespace

@@ -48,6 +48,22 @@ std::string make_word(const std::filesystem::path& path, bool target) {
   return word;
 }
 
+/// Writes the list of inputs for make, then what `finish` does: a process that is killed between
+/// the two must not leave files whose inputs make does not know (hard case P2). A list that cannot
+/// be written must not cost them: its FileError comes after `finish`.
+void finish_after_depfile(const std::filesystem::path& depfile, const std::filesystem::path& target,
+                          const std::vector<std::filesystem::path>& inputs,
+                          const std::function<void()>& finish) {
+  std::exception_ptr failure;
+  try {
+    write_depfile(depfile, target, inputs);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  finish();
+  if (failure) std::rethrow_exception(failure);
+}
+
 }  // namespace
 
 void write_artefact(const std::filesystem::path& output, const Provenance& provenance,
@@ -63,17 +79,10 @@ void finish_artefact(H5File& file, const std::filesystem::path& output,
                      const CommonOptions& common) {
   write_provenance(file, provenance);
   write_timing(file, clock);
-  // A process that is killed between the two must not leave an artefact whose inputs make does not
-  // know (hard case P2); a list that cannot be written must not cost the artefact.
-  std::exception_ptr failure;
-  try {
-    write_depfile(common.depfile, output, provenance.inputs);
-  } catch (...) {
-    failure = std::current_exception();
-  }
-  file.commit(output);
-  date_before_changed_inputs(output, provenance.inputs);
-  if (failure) std::rethrow_exception(failure);
+  finish_after_depfile(common.depfile, output, provenance.inputs, [&] {
+    file.commit(output);
+    date_before_changed_inputs(output, provenance.inputs);
+  });
 }
 
 void print_json_result(const std::filesystem::path& output, const JsonMembers& members,
@@ -85,11 +94,14 @@ void print_json_result(const std::filesystem::path& output, const JsonMembers& m
   print_json(all);
 }
 
-void finish_exports(const ExportedFiles& exported, const CommonOptions& common) {
+void write_exports(const ExportedFiles& exported, const CommonOptions& common,
+                   const std::function<std::string()>& write) {
   std::vector<std::string> files;
   for (const auto& file : exported.files) files.push_back(json_text(file.string()));
-  print_result(fmt::format("{} to {}", exported.what, fmt::join(files, ", ")));
-  write_depfile(common.depfile, exported.target, exported.inputs);
+  finish_after_depfile(common.depfile, exported.target, exported.inputs, [&] {
+    const std::string what = write();
+    print_result(fmt::format("{} to {}", what, fmt::join(files, ", ")));
+  });
   if (common.json) print_json({{"files", fmt::format("[{}]", fmt::join(files, ", "))}});
 }
 

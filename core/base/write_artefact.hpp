@@ -35,15 +35,17 @@ void print_json_result(const std::filesystem::path& output, const JsonMembers& m
 
 /// Files in formats of other programs, and what they were made from.
 struct ExportedFiles {
-  std::string what;                           // for the user: "block: 395 coordinates"
   std::filesystem::path target;               // as requested, for make
   std::vector<std::filesystem::path> files;   // written; a format may have several
   std::vector<std::filesystem::path> inputs;  // read
 };
 
-/// Finishes a command that only exports: the dependency file, the line "what to files", and with
-/// --json {"files": [...]}.
-void finish_exports(const ExportedFiles& exported, const CommonOptions& common);
+/// Does what a command that only exports does: the dependency file, the files by `write`, which
+/// returns what they are for the user ("block: 395 coordinates"), the line "what to files", and
+/// with
+/// --json {"files": [...]}. FileError as above.
+void write_exports(const ExportedFiles& exported, const CommonOptions& common,
+                   const std::function<std::string()>& write);
 
 /// Writes "target: input input ..." for make. No effect when `depfile` is empty.
 void write_depfile(const std::filesystem::path& depfile, const std::filesystem::path& target,

@@ -195,7 +195,7 @@ class Arrows(unittest.TestCase):
         self.assertRegex(wrong_links("recover", "LINKS clatter::fe")[0], "recover uses core/fe, but may use only: ")
 
     def test_artefacts_are_finished_in_one_place(self):
-        wrong = [f"{p.relative_to(SOURCE)}: calls {name}, expected write_artefact() or finish_exports()"
+        wrong = [f"{p.relative_to(SOURCE)}: calls {name}, expected write_artefact() or write_exports()"
                  for folder in ALLOWED for p in sources(folder) if p.stem not in ("artefact", "write_artefact")
                  for name in re.findall(r"\b(write_provenance|write_timing|write_depfile)\(", p.read_text())]
         self.assertEqual(wrong, [])

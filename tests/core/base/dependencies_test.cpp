@@ -50,5 +50,28 @@ TEST_F(HardP2_Dependencies, ThatCannotBeListedDoNotCostTheArtefact) {
   EXPECT_TRUE(fs::is_regular_file(artefact_));
 }
 
+// The same of files in formats of other programs, which are written one by one.
+TEST_F(HardP2_Dependencies, OfExportsAreListedBeforeTheFirstFile) {
+  CommonOptions common;
+  common.depfile = folder_ / "part.inp.d";
+  const ExportedFiles exported{folder_ / "part.inp", {folder_ / "part.inp"}, {"part.rom.h5"}};
+  bool listed = false;
+  write_exports(exported, common, [&] {
+    listed = fs::exists(common.depfile);
+    return "part";
+  });
+  EXPECT_TRUE(listed);
+  common.depfile = folder_ / "missing" / "part.inp.d";
+  bool written = false;
+  test::expect_parts(test::refusal_of<FileError>([&] {
+                       write_exports(exported, common, [&] {
+                         written = true;
+                         return "part";
+                       });
+                     }),
+                     {common.depfile.string()});
+  EXPECT_TRUE(written);
+}
+
 }  // namespace
 }  // namespace clatter
