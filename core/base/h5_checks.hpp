@@ -38,6 +38,14 @@ inline Id checked_access() {
   return access;
 }
 
+/// File access without the library's locks, which need a file system that has them (hard case H3):
+/// ReadLock and PartLock do the locking.
+inline Id unlocked_access() {
+  Id access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
+  H5Pset_file_locking(access, false, true);
+  return access;
+}
+
 /// Creation properties of a dataset, a group or a file (`kind` H5P_DATASET_CREATE, ...) that keep
 /// the attributes in the object header, which has a checksum. By default HDF5 moves more than 8 of
 /// them to a heap, where those over 4 KiB have none.

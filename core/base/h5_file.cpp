@@ -31,7 +31,8 @@ H5File H5File::open(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, ignored)) {
     throw InputError(fmt::format("{}: no such file, expected an HDF5 file", path.string()));
   }
-  impl->file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  impl->reading = ReadLock(path);
+  impl->file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, unlocked_access());
   if (impl->file < 0) {
     const std::string why = damage();
     throw InputError(fmt::format(

@@ -15,6 +15,7 @@
 #include "core/base/h5_file.hpp"
 #include "core/base/part_lock.hpp"
 #include "core/base/part_names.hpp"
+#include "core/base/read_lock.hpp"
 
 namespace clatter {
 
@@ -63,6 +64,7 @@ struct H5File::Impl {
   std::filesystem::path part_path;  // empty when reading
   PartName unfinished;
   PartLock lock;
+  ReadLock reading;
   hid_t file = -1;
   bool single = false;  // doubles are stored in single precision
 

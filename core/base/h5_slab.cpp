@@ -12,7 +12,9 @@ class OpenDataset {
   OpenDataset(const std::filesystem::path& path, const std::string& name)
       : path_(path),
         name_(name),
-        file_((silence_library(), H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)), &H5Fclose),
+        reading_(path),
+        file_((silence_library(), H5Fopen(path.c_str(), H5F_ACC_RDONLY, unlocked_access())),
+              &H5Fclose),
         set_(file_.ok() ? H5Dopen2(file_, name.c_str(), H5P_DEFAULT) : -1, &H5Dclose) {
     if (!file_.ok()) refuse("cannot be opened");
     if (!set_.ok()) refuse("found nothing, expected a dataset");
@@ -43,6 +45,7 @@ class OpenDataset {
  private:
   const std::filesystem::path& path_;
   const std::string& name_;
+  ReadLock reading_;
   Id file_, set_;
 };
 

@@ -10,6 +10,8 @@ namespace clatter {
 
 struct PlainH5::Impl {
   std::filesystem::path path, part;
+  PartLock lock;
+  PartName unfinished;
   hid_t file = -1;
 
   ~Impl() {
@@ -47,12 +49,14 @@ struct PlainH5::Impl {
 PlainH5::PlainH5(const std::filesystem::path& path) : impl_(std::make_unique<Impl>()) {
   silence_library();
   impl_->path = path;
-  const std::string part = path.string() + ".part";
-  impl_->file = H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  const std::filesystem::path part = path.string() + ".part";
+  impl_->lock = PartLock(part);
+  impl_->part = part;
+  impl_->unfinished = PartName(part);
+  impl_->file = H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, unlocked_access());
   if (impl_->file < 0)
     throw FileError(
         fmt::format("{}: cannot be written (folder missing or disk full?)", path.string()));
-  impl_->part = part;
 }
 
 PlainH5::~PlainH5() = default;
