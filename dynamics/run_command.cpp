@@ -28,9 +28,10 @@ struct RunArguments {
   bool resume = false, effects = false;
 };
 
-/// From here on SIGINT and SIGTERM end the run after a step; an ignored signal stays ignored.
+/// From here on SIGINT, SIGTERM and SIGXCPU, a limit of processor time (hard case P15), end the run
+/// after a step; an ignored signal stays ignored.
 void stop_on_signals() {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGXCPU}) {
     if (std::signal(signal, request_stop) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
 }

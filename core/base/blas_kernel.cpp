@@ -4,15 +4,19 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <strings.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <limits>
 #include <mutex>
 #include <string>
 #include <string_view>
 
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
+#include "core/base/memory_limit.hpp"
 #include "core/base/threads.hpp"
 
 namespace clatter {
@@ -63,6 +67,37 @@ int generation(const std::string& kernel) {
   return 1;
 }
 
+// Where the address space is limited, and for more than one thread too small.
+bool one_thread = false;
+
+/// Address space that a thread of OpenBLAS takes for its buffer. It tries again without end while
+/// it gets none (hard case P14).
+constexpr double kBufferBytes = 128.0 * 1024.0 * 1024.0 + 65536.0;
+
+/// Address space that is left below the limit of the process (ulimit -v); infinite without one.
+double address_space_left() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    return std::numeric_limits<double>::infinity();
+  std::ifstream file("/proc/self/statm");
+  double pages = 0.0;
+  file >> pages;
+  return static_cast<double>(limit.rlim_cur) -
+         pages * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+}
+
+/// Where there is no room for the buffers of all threads: OpenBLAS gets one thread, by a restart,
+/// because its other threads have begun to wait for their buffers while it was loaded.
+void avoid_waiting_threads(char** argv) {
+  constexpr const char* kThreads = "OPENBLAS_NUM_THREADS";
+  if (address_space_left() > 2.0 * kBufferBytes * thread_count()) return;
+  one_thread = true;
+  const char* set = std::getenv(kThreads);
+  if (set != nullptr && std::string_view(set) == "1") return;
+  setenv(kThreads, "1", 1);
+  execv("/proc/self/exe", argv);
+}
+
 /// OpenBLAS must not change its thread count while another thread of ours uses it.
 std::mutex& section_mutex() {
   static std::mutex mutex;
@@ -74,6 +109,7 @@ std::mutex& section_mutex() {
 void ensure_fast_blas(char** argv) {
   const auto corename = find_symbol<char*()>("openblas_get_corename");
   if (corename == nullptr) return;
+  avoid_waiting_threads(argv);
   const std::string requested = requested_kernel(argv), running = corename();
   const char* set = std::getenv(kChoice);
   if (requested.empty() && set != nullptr) return;
@@ -110,7 +146,24 @@ void report_blas(const std::string& requested) {
 }
 
 void set_blas_threads(int count) {
-  if (const auto set = find_symbol<void(int)>("openblas_set_num_threads")) set(count);
+  if (const auto set = find_symbol<void(int)>("openblas_set_num_threads"))
+    set(one_thread ? 1 : count);
+}
+
+void reserve_blas_memory() {
+  if (!one_thread) return;
+  const double left = address_space_left();
+  if (left < 1.1 * kBufferBytes)
+    throw NumericsError(fmt::format(
+        "the limit of address space (ulimit -v) leaves {} of memory, expected at least {}",
+        memory_text(left / kBytesPerGib), memory_text(1.1 * kBufferBytes / kBytesPerGib)));
+  using Factor = void(const char*, const int*, double*, const int*, int*);
+  if (const auto potrf = find_symbol<Factor>("dpotrf_")) {
+    const int size = 1;
+    double matrix = 1.0;
+    int info = 0;
+    potrf("L", &size, &matrix, &size, &info);
+  }
 }
 
 BlasThreads::BlasThreads(int count) : lock_(section_mutex()) { set_blas_threads(count); }

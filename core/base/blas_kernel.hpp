@@ -12,6 +12,9 @@ namespace clatter {
 /// restart that fails is warned of): OpenBLAS selects its kernel while it is loaded. A kernel set
 /// in the environment is kept, unless `argv` contains "--blas NAME", or "--blas auto" for the best
 /// one. Call first in main of every stage that uses BLAS. No effect without OpenBLAS.
+///
+/// Where a limit of address space leaves no room for the buffers of its threads, the program is
+/// restarted with one thread of OpenBLAS.
 void ensure_fast_blas(char** argv);
 
 /// Logs the running kernel when --blas was given, and otherwise when the environment forces a
@@ -21,6 +24,10 @@ void report_blas(const std::string& requested);
 
 /// Sets the number of threads inside BLAS; no effect without OpenBLAS.
 void set_blas_threads(int count);
+
+/// Takes the buffer of OpenBLAS while there is room, where the address space is limited.
+/// NumericsError when there is none.
+void reserve_blas_memory();
 
 /// Sets the number of BLAS threads while it lives (one while our own threads run); afterwards it is
 /// thread_count(). Only one exists at a time: a second thread waits.

@@ -79,7 +79,7 @@ void limit_address_space([[maybe_unused]] double memory_gib) {
   const double bytes = address_space_bytes() + (1.25 * memory_gib + 2.0) * kBytesPerGib;
   rlimit limit{};
   if (bytes > 9e18 || ::getrlimit(RLIMIT_AS, &limit) != 0) return;
-  limit.rlim_cur = std::min(limit.rlim_max, static_cast<rlim_t>(bytes));
+  limit.rlim_cur = std::min(limit.rlim_cur, static_cast<rlim_t>(bytes));
   ::setrlimit(RLIMIT_AS, &limit);
 #endif
 }

@@ -89,6 +89,7 @@ struct CommandLine::Impl {
     set_thread_count(common.threads);
     set_memory_limit_gib(memory_gib);
     set_blas_threads(thread_count());
+    reserve_blas_memory();
     try {
       if (with_blas) report_blas(blas);
     } catch (const InputError& error) {

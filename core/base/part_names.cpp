@@ -50,7 +50,7 @@ PartName::~PartName() {
 }
 
 void remove_parts_on_signals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     struct sigaction old = {};
     ::sigaction(signal, nullptr, &old);
     if (old.sa_handler == SIG_DFL) ::signal(signal, remove_and_end);

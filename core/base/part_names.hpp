@@ -5,8 +5,8 @@
 
 namespace clatter {
 
-/// Registers an unfinished file for its lifetime: SIGINT, SIGTERM and SIGHUP remove the file before
-/// they terminate the process.
+/// Registers an unfinished file for its lifetime: SIGINT, SIGTERM, SIGHUP and SIGXCPU remove the
+/// file before they terminate the process.
 class PartName {
  public:
   PartName() = default;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -39,8 +40,15 @@ void parallel_pieces(int64_t n, const std::function<void(int64_t, int64_t)>& bod
     }
   };
   std::vector<std::thread> workers;
-  for (int64_t piece = 1; piece < pieces; ++piece) workers.emplace_back(run, piece);
+  workers.reserve(static_cast<size_t>(pieces));
+  int64_t started = 1;
+  try {
+    for (; started < pieces; ++started) workers.emplace_back(run, started);
+  } catch (const std::system_error&) {
+    // A limit of threads or of memory: the others run here (hard case P14).
+  }
   run(0);  // on this thread: one thread less to start
+  for (; started < pieces; ++started) run(started);
   for (auto& worker : workers) worker.join();
   for (const auto& failure : failures) {
     if (failure) std::rethrow_exception(failure);
