@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 namespace clatter::mesh::deck {
 namespace {
@@ -23,6 +22,7 @@ std::optional<double> fortran_number(std::string_view text) {
   for (size_t i = 0; i < text.size(); ++i) {
     char c = text[i];
     const bool sign = c == '+' || c == '-';
+    if (c == '+' && i == 0) continue;
     if (c == 'd' || c == 'D' || c == 'E') c = 'e';
     if (c == 'e') {
       if (exponent || !digits) return std::nullopt;
@@ -37,11 +37,14 @@ std::optional<double> fortran_number(std::string_view text) {
     digits = digits || is_digit(c);
     c_text[n++] = c;
   }
-  c_text[n] = '\0';
-  char* end = nullptr;
-  const double value = std::strtod(c_text.data(), &end);
-  if (!digits || end != c_text.data() + n || !std::isfinite(value)) return std::nullopt;
-  return value;
+  // Not strtod, which reads as the language of the application does (hard case P13).
+  double value = 0.0;
+  const char* const all = c_text.data() + n;
+  const auto [end, trouble] = std::from_chars(c_text.data(), all, value);
+  if (!digits || end != all || !std::isfinite(value)) return std::nullopt;
+  if (trouble == std::errc()) return value;
+  const bool tiny = std::string_view(c_text.data(), n).find("e-") != std::string_view::npos;
+  return trouble == std::errc::result_out_of_range && tiny ? std::optional(0.0) : std::nullopt;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <locale>
 #include <sstream>
 
 #include "core/base/error.hpp"
@@ -79,6 +80,7 @@ class Scanner {
     if (line_of("line 1") != "$MeshFormat")
       fail("found no $MeshFormat in line 1, expected a Gmsh MSH file of version 2 or 4");
     std::istringstream line(line_of("$MeshFormat"));
+    line.imbue(std::locale::classic());  // "2.2" is 22 in German (hard case P13)
     double version = 0.0;
     int kind = -1, bytes = 0;
     line >> version >> kind >> bytes;
