@@ -22,7 +22,7 @@ std::optional<double> fortran_number(std::string_view text) {
   for (size_t i = 0; i < text.size(); ++i) {
     char c = text[i];
     const bool sign = c == '+' || c == '-';
-    if (c == '+' && i == 0) continue;
+    if (c == '+' && i == 0 && !text.starts_with("+-")) continue;
     if (c == 'd' || c == 'D' || c == 'E') c = 'e';
     if (c == 'e') {
       if (exponent || !digits) return std::nullopt;
