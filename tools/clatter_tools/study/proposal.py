@@ -9,9 +9,10 @@ difference of itself and all finer ones, the finest that of the last refinement,
 signs say nothing, add in squares. Settings are chosen by the sum of all magnitudes. Errors are against the limit of all settings, not against an exact value.
 Values with which the model does not state the quantity (a frequency above half the cut-off, bands above the spectra) are no candidates.
 
---at changes keys of the pipeline: another speed, load or clearance than that of the study. Two runs are made there first, the base and everything
-refined. All differences are taken to be as many times larger as that of these two runs is, from SMALLEST times on (a smaller one may be an accident of
-signs), and the seconds of each stage in proportion to those of the base. The proof is a third run there, with the proposed settings.
+--at changes keys of the pipeline: another speed, load or clearance than that of the study. The base is run there, and the setting with the largest
+part of the budget at the value before the base's. All differences are taken to be as many times larger as that of these two runs is, from SMALLEST
+times on (a smaller one may be an accident of signs), and the seconds of each stage in proportion to those of the base. The proof is a run there with
+the proposed settings against one with everything refined, of which the proposal has seen nothing.
 Each proof is a row of proofs.csv in the study's folder; --markdown shows them.
 """
 import csv
@@ -172,23 +173,37 @@ class Place:
 
 
 def place_of(study, quantity, jobs, changes=()):
-    """The Place of changes, [((file, path of keys), value)], by runs of the base and of everything refined there; Failed where one cannot be made."""
+    """The Place of changes, [((file, path of keys), value)], by runs there of the base, of the ruling setting at another value and of everything refined;
+    Failed where one cannot be made."""
     wanted, base = study.plan, study.variants[BASE].values
     known = study.values[quantity][BASE]
     refined = study.budgets[quantity].refined
     limit = convergence.total_reference(None, study.lines[quantity], known, None if refined is None else known.minus(refined))
     if not changes:
         return Place([], study.stages[BASE], limit, 1.0)
-    chosen = [variants.Variant("base", base), variants.Variant("refined", tuple(setting.values[-1] for setting in wanted.settings))]
+    probe = ruling_variant(study, quantity)
+    chosen = [variants.Variant("base", base), study.variants[probe], variants.Variant("refined", tuple(setting.values[-1] for setting in wanted.settings))]
     made, artefacts = make_there(study, quantity, chosen, changes, jobs)
     values = [made.values(own)[quantity] for own in artefacts]
     if any(value is None for value in values):
-        raise run.Failed(f"{wanted.path}: --at: the base or the run with everything refined cannot be made there: see what the stage says above")
-    reference = values[1]
+        raise run.Failed(f"{wanted.path}: --at: a run there, of the base, {chosen[1].name} or everything refined, cannot be made: see what its stage says above")
+    reference = values[2]
     for line in study.lines[quantity].values():
         reference = reference.minus(line.errors[-1])
-    there, here = (value.minus(own).size() / scale_of(wanted, quantity, own) for value, own in ((values[0], reference), (known, limit)))
+    there, here = (one.minus(own).size() / scale_of(wanted, quantity, own) for one, own in ((values[1], values[0]), (study.values[quantity][probe], known)))
     return Place(list(changes), made.stages(artefacts[0]), reference, max(there / here, SMALLEST) if here > 0.0 else 1.0)
+
+
+def ruling_variant(study, quantity):
+    """The number of the variant in which the setting with the largest part of the budget has the value before the base's, or else the one after it."""
+    parts = {number: part.size() for number, part in study.budgets[quantity].parts}
+    for number in sorted(parts, key=lambda number: -parts[number]):
+        found = study.lines[quantity][number].variants
+        at = found.index(BASE) if BASE in found else len(found)
+        order = [*reversed(found[:at]), *found[at + 1:]]
+        if order:
+            return order[0]
+    raise run.Failed(f"{study.plan.path}: --at: found no setting with another value than the base's, expected one")
 
 
 def scale_of(wanted, quantity, reference):
