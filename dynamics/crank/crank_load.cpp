@@ -44,6 +44,12 @@ void CrankLoad::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eig
   if (with_tangent) response.tangent.setConstant(1, 1, -share * (by_angle + by_rate / stage.kappa));
 }
 
+TurningAngle CrankLoad::table_angle(double time, const Eigen::VectorXd& y,
+                                    const Eigen::VectorXd& v) const {
+  const Motion<double> turn = clock_.turn(time);
+  return {turn.position + sign_ * y(0), turn.velocity + sign_ * v(0)};
+}
+
 void CrankLoad::begin_step(double time) {
   if (law_.controller) law_.controller->begin_step(time);
 }

@@ -10,6 +10,7 @@
 #include "dynamics/crank/mean_torque.hpp"
 #include "dynamics/force/crank_port.hpp"
 #include "dynamics/force/element.hpp"
+#include "dynamics/force/table_force.hpp"
 #include "dynamics/given/spline.hpp"
 
 namespace clatter::dynamics {
@@ -24,7 +25,7 @@ struct CrankLoadLaw {
 
 /// That torque on the rotation rx of the crank from its clock, with the angle theta + d and the
 /// speed of the crank itself; d is rx in the direction of rotation. The reaction is on the ground.
-class CrankLoad : public ForceElement {
+class CrankLoad : public ForceElement, public TableForce {
  public:
   static constexpr double kLargest = 0.5;  // deviation from the clock [rad]
 
@@ -34,6 +35,13 @@ class CrankLoad : public ForceElement {
   /// StepRefused where the crank is further from its clock than kLargest.
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, Response& response) override;
+  bool has_table() const override { return law_.table.has_value(); }
+  TurningAngle table_angle(double time, const Eigen::VectorXd& y,
+                           const Eigen::VectorXd& v) const override;
+  double next_row(double angle) const override { return law_.table->next_point(angle); }
+  double by_table(double time, const TurningAngle& at) const override {
+    return -sign_ * ramp_(time) * (*law_.table)(at.angle);
+  }
   void begin_step(double time) override;
   void finish_stage(const Stage&) override { finished_ = last_; }
   void accept_step(double time) override;

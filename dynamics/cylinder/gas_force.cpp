@@ -18,6 +18,12 @@ void GasForce::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eige
   response.tangent(0, 1) = share * (at(y(1) + kStep) - at(y(1) - kStep)) / (2.0 * kStep);
 }
 
+TurningAngle GasForce::table_angle(double time, const Eigen::VectorXd& y,
+                                   const Eigen::VectorXd& v) const {
+  const double turns = crank_.spin(time) < 0.0 ? -v(1) : v(1);
+  return {crank_angle(crank_, time, y(1)), crank_.turn(time).velocity + turns};
+}
+
 std::vector<std::unique_ptr<ForceElement>> gas_forces(const CylinderBodies& bodies,
                                                       const SliderCrank& crank, const Spline& gas) {
   System& system = bodies.model.system;

@@ -7,6 +7,7 @@
 
 #include "dynamics/cylinder/cylinder_bodies.hpp"
 #include "dynamics/force/element.hpp"
+#include "dynamics/force/table_force.hpp"
 #include "dynamics/given/crank.hpp"
 #include "dynamics/given/spline.hpp"
 
@@ -15,7 +16,7 @@ namespace clatter::dynamics {
 /// (p(theta + delta) - ambient) times a unit load on a body: delta is the deviation of the crank's
 /// angle from that of the clock, in the direction of rotation. Its work on the unit load's
 /// coordinate, the displaced volume [m3], is the input of the gas.
-class GasForce : public ForceElement {
+class GasForce : public ForceElement, public TableForce {
  public:
   /// @param volume y index of the unit load's coordinate. @param turn y index of the crank's
   /// rotation about +x from that of the clock. @param ambient [Pa]. @param ramp of the start.
@@ -30,6 +31,12 @@ class GasForce : public ForceElement {
   std::string name() const override { return name_; }
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, Response& response) override;
+  TurningAngle table_angle(double time, const Eigen::VectorXd& y,
+                           const Eigen::VectorXd& v) const override;
+  double next_row(double angle) const override { return pressure_.next_point(angle); }
+  double by_table(double time, const TurningAngle& at) const override {
+    return ramp_(time) * (pressure_(at.angle) - ambient_);
+  }
   void finish_stage(const Stage&) override { finished_ = last_; }
   Power power(const Eigen::VectorXd&, const Eigen::VectorXd& v) const override {
     return {0.0, 0.0, finished_ * v(0)};

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "dynamics/given/next_point.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -123,5 +124,7 @@ SplinePoint PeriodicSpline::at(double x) const {
           2 * c[2] + s * (6 * c[3] + s * (12 * c[4] + s * 20 * c[5])),
           6 * c[3] + s * (24 * c[4] + s * 60 * c[5])};
 }
+
+double PeriodicSpline::next_point(double x) const { return next_periodic_point(x_, period_, x); }
 
 }  // namespace clatter::dynamics

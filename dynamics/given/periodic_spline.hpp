@@ -18,6 +18,8 @@ class PeriodicSpline {
   /// one. @param degree 3 or 5.
   PeriodicSpline(int degree, std::vector<double> x, const std::vector<double>& y, double period);
   SplinePoint at(double x) const;
+  /// The first of the given points above `x`.
+  double next_point(double x) const;
 
  private:
   struct Piece {

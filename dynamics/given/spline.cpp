@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+
+#include "dynamics/given/next_point.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -63,13 +66,8 @@ double Spline::next_point(double at) const {
     const auto next = std::upper_bound(x_.begin(), x_.end(), at);
     return next == x_.end() ? std::numeric_limits<double>::infinity() : *next;
   }
-  // Without the closing point; a turn further where rounding puts `at` at the end of its turn.
-  for (double turn = std::floor((at - x_.front()) / period_);; ++turn) {
-    const double begin = turn * period_;
-    auto next = std::upper_bound(x_.begin(), x_.end() - 1, at - begin);
-    for (; next != x_.end() - 1; ++next)
-      if (begin + *next > at) return begin + *next;
-  }
+  return next_periodic_point(std::span(x_).first(x_.size() - 1), period_,
+                             at);  // but the closing one
 }
 
 double Spline::slope(double at) const {

@@ -44,6 +44,7 @@ Integrator::Integrator(System& system, const StepOptions& options)
       estimate_(system),
       derived_(system, options.accuracy),
       missed_(system, weights_, *tableau_),
+      missed_table_(system, weights_, *tableau_),
       floor_(system),
       events_(system) {}
 
@@ -117,7 +118,8 @@ double Integrator::measure(const VectorXd& e_y) {
   const double derived = derived_.measure(e_eta_, e_v_, e_y);
   if (!std::isfinite(largest.value + modal + derived))
     return std::numeric_limits<double>::infinity();
-  const double other = std::max(derived, missed_.error(now_.time, stages_));
+  const double other =
+      std::max({derived, missed_.error(now_.time, stages_), missed_table_.error(now_, stages_)});
   const double all = std::max({largest.value, modal, other});
   if (all <= 1.0) return all;
   floor_.apply(now_, end(), e_eta_, e_v_, e_y);

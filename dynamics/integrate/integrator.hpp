@@ -15,6 +15,7 @@
 #include "dynamics/integrate/error_estimate.hpp"
 #include "dynamics/integrate/event_search.hpp"
 #include "dynamics/integrate/missed_impulse.hpp"
+#include "dynamics/integrate/missed_table.hpp"
 #include "dynamics/integrate/rounding_floor.hpp"
 #include "dynamics/integrate/stage_operator.hpp"
 #include "dynamics/integrate/stage_solver.hpp"
@@ -133,6 +134,7 @@ class Integrator {
   ErrorEstimate estimate_;
   DerivedError derived_;
   MissedImpulse missed_;
+  MissedTable missed_table_;
   RoundingFloor floor_;
   EventSearch events_;
   std::optional<Event> event_;  // in the step under way: it ends there

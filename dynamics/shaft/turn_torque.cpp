@@ -94,6 +94,17 @@ TurnLaw TableTorque::law(double time, double angle, double speed) const {
           {0.0, drag * speed, factor * drive * speed}};
 }
 
+TurningAngle TableTorque::table_angle(double, const Eigen::VectorXd& y,
+                                      const Eigen::VectorXd& v) const {
+  return has_reaction() ? TurningAngle{y(0) - y(1) - table_.zero, v(0) - v(1)}
+                        : TurningAngle{y(0) - table_.zero, v(0)};
+}
+
+double TableTorque::by_table(double time, const TurningAngle& at) const {
+  const double ratio = table_.speed == 0.0 ? 1.0 : at.rate / table_.speed;
+  return ramp_(time) * ratio * ratio * table_.scale * table_.table->at(at.angle).value;
+}
+
 CamTorque::CamTorque(std::string name, int angle, std::optional<int> reaction, CamTrain train,
                      std::function<double(double)> ramp)
     : TurnTorque(std::move(name), angle, reaction),

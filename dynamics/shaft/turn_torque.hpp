@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/force/element.hpp"
+#include "dynamics/force/table_force.hpp"
 #include "dynamics/given/cam_law.hpp"
 #include "dynamics/given/periodic_spline.hpp"
 
@@ -61,11 +62,17 @@ struct TorqueTable {
 
 /// moment = ramp (constant + sum of orders + table) (speed / reference)^2
 ///          - drag speed / sqrt(speed^2 + drag_speed^2) - viscous speed
-class TableTorque : public TurnTorque {
+class TableTorque : public TurnTorque, public TableForce {
  public:
   /// @param ramp factor over time [s].
   TableTorque(std::string name, int angle, std::optional<int> reaction, TorqueTable table,
               std::function<double(double)> ramp);
+  bool has_table() const override { return table_.table.has_value(); }
+  TurningAngle table_angle(double time, const Eigen::VectorXd& y,
+                           const Eigen::VectorXd& v) const override;
+  double next_row(double angle) const override { return table_.table->next_point(angle); }
+  double by_table(double time, const TurningAngle& at) const override;
+  bool has_reaction() const override { return coordinates_.size() == 2; }
 
  protected:
   TurnLaw law(double time, double angle, double speed) const override;

@@ -272,6 +272,11 @@ viscosity_mpa_s = 10
   shaft.system().add_element(std::make_unique<CamTorque>(
       "cam", shaft.y("shaft.a", 5), std::nullopt,
       CamTrain{CamLaw::polynomial(7.5e-3, 1.2), {0.3}, 2.0, 150.0, 22214.0, 0.08}, one));
+  TorqueTable rows;  // many of them in each step
+  rows.table.emplace(3, std::vector<double>{0.0, 1e-3, 2e-3, 3e-3},
+                     std::vector<double>{0.0, 1.0, 2.0, 1.0}, 4e-3);
+  shaft.system().add_element(
+      std::make_unique<TableTorque>("torque", shaft.y("shaft.a", 5), std::nullopt, rows, one));
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(6);
   weight(1) = 1.0;
   shaft.system().add_load(

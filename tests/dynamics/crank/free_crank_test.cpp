@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <map>
 #include <numbers>
 
@@ -273,6 +274,51 @@ TEST_F(FreeCranks, HaveTangentsAndPowersAtTheirOwnSpeed) {
         << name;
   }
   EXPECT_EQ(checked, 3);
+}
+
+/// A torque over one cycle of 720 deg with a spike.
+std::string load_rows() {
+  std::string text = "crank_angle [deg], torque [N m]\n";
+  for (int deg = -360; deg <= 360; ++deg)
+    text += fmt::format("{}, {}\n", deg, deg == 40 ? 500.0 : 10.0);
+  return text;
+}
+
+// The integrator asks gas and load for their tables to find pulses between stages.
+TEST_F(FreeCranks, HardS16_KnowTheTablesOfTheirForces) {
+  std::ofstream(folder_ / "load.csv") << load_rows();
+  const Scene described =
+      scene(std::string(kAtOnce) +
+            "[contact]\nlubrication = \"none\"\n[crank]\nspeed = \"free\"\npolar_kg_m2 = 0.5\n"
+            "[crank.load]\nlaw = \"table\"\ntable = \"load.csv\"\ncolumn = \"torque\"\n");
+  const LoadedBodies bodies = load_bodies(described);
+  const auto model = build_model(described, bodies);
+  System& system = model->system;
+  std::vector<std::string> found;
+  for (int e = 0; e < system.elements(); ++e) {
+    ForceElement& element = system.element(e);
+    const auto* table = dynamic_cast<const TableForce*>(&element);
+    if (table == nullptr || !table->has_table()) continue;
+    found.push_back(element.name());
+    const auto n = static_cast<Eigen::Index>(element.coordinates().size());
+    VectorXd y = VectorXd::Zero(n), v = VectorXd::Zero(n);
+    y(n - 1) = 0.03;  // the rotation of the crank
+    v(n - 1) = 8.0;
+    constexpr double kTime = 0.0021, kStep = 1e-6;
+    const TurningAngle at = table->table_angle(kTime, y, v);
+    const TurningAngle later = table->table_angle(kTime + kStep, y + kStep * v, v);
+    EXPECT_NEAR(at.rate, (later.angle - at.angle) / kStep, 1e-5 * at.rate) << element.name();
+    EXPECT_GT(table->next_row(at.angle), at.angle);
+    EXPECT_LE(table->next_row(at.angle), at.angle + 20.0 * std::numbers::pi / 180.0);
+    Response response;
+    element.evaluate({kTime, 2e-5, 1, {}}, y, v, false, response);
+    EXPECT_NEAR(response.force(0), table->by_table(kTime, at), 1e-12 * std::abs(response.force(0)))
+        << element.name();
+    EXPECT_NE(response.force(0), 0.0);
+    EXPECT_FALSE(table->has_reaction());
+  }
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, (std::vector<std::string>{"crank load", "gas on piston"}));
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hard cases S2, S3, S4, S6 and S7: tables and names that mislead.
+// Hard cases S2, S3, S4, S6, S7 and S16: tables and names that mislead.
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "dynamics/given/spline.hpp"
 #include "tests/dynamics/extreme/extreme_scene.hpp"
@@ -18,6 +19,7 @@ using HardS3 = testing::ExtremeScenes;
 using HardS4 = testing::ExtremeScenes;
 using HardS6 = testing::ExtremeScenes;
 using HardS7 = testing::ExtremeScenes;
+using HardS16 = testing::ExtremeScenes;
 
 const char* const kTableLoad =
     "[[load]]\nbody = \"b\"\ncomponent = \"z\"\ntable = \"load.csv\"\ncolumn = \"force\"\n";
@@ -152,6 +154,70 @@ TEST_F(HardS7, ATableWithANumberThatNoMachineHasIsRefused) {
     test::expect_parts(refusal(span(0.1) + slider("b", 1.0) + kTableLoad),
                        {"load.csv:3: force: found \"", "expected a "});
   }
+}
+
+/// A rotor of 0.01 kg m2 on the angle 0 with a speed [rad/s].
+std::string rotor(const char* name, double speed) {
+  return fmt::format(
+      "[[rigid_body]]\nname = \"{}\"\nmotion = \"xy\"\nmass_kg = 1\ninertia_kg_m2 = 0.01\n"
+      "start_spin_rad_s = {}\n",
+      name, speed);
+}
+
+/// A table over one turn in rows of 0.25 deg: at 203 deg a spike with the work of 2 J.
+std::string spike() {
+  std::string text = "angle [deg], torque [N m]\n";
+  for (int i = 0; i < 1440; ++i)
+    text += fmt::format("{}, {}\n", 0.25 * i, i == 812 ? 2.0 / (0.25 * std::numbers::pi / 180) : 0);
+  return text;
+}
+
+const char* const kSpike =
+    "[[torque]]\nbody = \"b\"\ntable = \"torque.csv\"\ncolumn = \"torque\"\n";
+
+// The angle of the table is that of the motion. Steps of 1 ms pass 5.7 deg; the work of the spike
+// decides the speed afterwards, in either direction.
+TEST_F(HardS16, ASpikeOfATorqueBetweenTwoStepsGivesItsWork) {
+  write("torque.csv", spike());
+  constexpr double kEnd = 0.06, kTurn = std::numbers::pi / 180.0;
+  for (const char* method : {"tr-bdf2", "sdirk2", "predictor-corrector"}) {
+    for (const double speed : {100.0, -100.0}) {
+      const H5File file = recorded(span(kEnd, 1e-3, fmt::format("method = \"{}\"\n", method)) +
+                                   rotor("b", speed) + kSpike);
+      const double sign = speed > 0.0 ? 1.0 : -1.0;
+      const double before = (speed > 0.0 ? 203.0 : 157.0) * kTurn / 100.0;
+      const double after = std::sqrt(1e4 + sign * 2.0 * 2.0 / 0.01);
+      const double gained = last(file, "b_angle") - speed * kEnd;
+      test::expect_at_most(fmt::format("{}, {:g} rad/s: error of the angle gained", method, speed),
+                           std::abs(gained / (sign * (after - 100.0) * (kEnd - before)) - 1.0),
+                           2e-2);
+    }
+  }
+}
+
+// Between two rotors the reaction has the same impulse: their mean angle does not know of it.
+TEST_F(HardS16, TheReactionOfASpikeHasItsImpulseAsWell) {
+  write("torque.csv", spike());
+  const H5File file =
+      recorded(span(0.06) + rotor("b", 100.0) + rotor("c", 0.0) + kSpike + "reaction = \"c\"\n");
+  const double b = last(file, "b_angle"), c = last(file, "c_angle");
+  test::expect_at_least("angle that the spike turns the other rotor [rad]", -c, 1e-3);
+  test::expect_at_most("change of the mean angle [rad]", std::abs(0.5 * (b + c) - 3.0), 1e-9);
+}
+
+// The same rows many times per step, of a torque that the steps resolve.
+TEST_F(HardS16, DenseRowsOfASmoothTorqueCostNoSteps) {
+  const auto steps = [&](int rows) {
+    std::string text = "angle [deg], torque [N m]\n";
+    for (int i = 0; i < rows; ++i)
+      text += fmt::format("{:.17g}, {:.17g}\n", 360.0 * i / rows,
+                          std::sin(2.0 * std::numbers::pi * i / rows));
+    write("torque.csv", text);
+    recorded(span(0.1) + rotor("b", 100.0) + kSpike);
+    return static_cast<double>(result_.statistics.accepted);
+  };
+  const double sparse = steps(72);
+  test::expect_at_most("steps with 7200 rows over those with 72", steps(7200) / sparse, 1.1);
 }
 
 }  // namespace
