@@ -22,9 +22,9 @@ for folder in ("tools", "tests/validate"):
 import deck_study  # noqa: E402
 from clatter_tools.study import effects, effects_page, findings, markdown, page, proposal, run  # noqa: E402
 
-SAMPLES = {"slap": "truck_diesel", "drive": "timing_drive", "beam": "beam"}
+STUDIES = {"slap": "truck_diesel/study.toml", "mesh": "truck_diesel/study_mesh.toml", "drive": "timing_drive/study.toml", "beam": "beam/study.toml"}
 WITH_EFFECTS = ("slap", "drive")
-CHOICES = [*SAMPLES, "deck", "proofs"]
+CHOICES = [*STUDIES, "deck", "proofs"]
 IN_README = ["sound power", "height of the slap"]  # quantities of the slap
 PICTURE = ("sound-power.png", ROOT / "docs/study.png")
 
@@ -45,7 +45,7 @@ def effects_of(name, options, put):
 
 
 def study_of(name):
-    return ROOT / "samples" / SAMPLES[name] / "study.toml"
+    return ROOT / "samples" / STUDIES[name]
 
 
 def main():
@@ -61,7 +61,7 @@ def main():
         if options.write:
             write(mark, lines)
 
-    for name in SAMPLES:
+    for name in STUDIES:
         if name in options.only:
             budget(name, study_of(name), options.jobs, put)
         if name in options.only and name in WITH_EFFECTS:
@@ -72,7 +72,7 @@ def main():
         with tempfile.TemporaryDirectory(prefix="clatter-deck-") as scratch:
             budget("deck", deck_study.write(scratch), options.jobs, put)
     if "proofs" in options.only:
-        rows = [[name, *row] for name in SAMPLES for row in proposal.read_proofs(run.plan.read(study_of(name)))[1:]]
+        rows = [[name, *row] for name in STUDIES for row in proposal.read_proofs(run.plan.read(study_of(name)))[1:]]
         put("study proofs", rows_as_markdown(["study", *proposal.PROOFS], rows))
 
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The studies of this folder, included by its Makefile. Both take up where they were interrupted.
 
-# What the accuracy of the slap costs (study.toml): `make study`; page and tables are in study/.
+# What the accuracy of the slap costs (study.toml, of its meshes study_mesh.toml): `make study`; pages and tables are in study/ and study_mesh/.
 .PHONY: study
 study:
-	$(clatter_tool) study study.toml -j2
+	for study in study study_mesh; do $(clatter_tool) study $$study.toml -j2 || exit; done
 slap_study.run.h5: block.rom.h5 piston.rom.h5
 slap_study.field.h5: slap_study.run.h5 speeds.field.toml block.sound.h5 $(clatter_recover)
 	$(call clatter_run,recover) $< -c speeds.field.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)

@@ -102,7 +102,7 @@ def verdict(study, quantity):
         small = own.small is not None and max(study.scaled(quantity, one.size()) for one in (budget.sum, budget.refined)) <= own.small
         if not math.isfinite(ratio):
             said.insert(0, "the run with everything refined shows no error")
-        elif 1.0 / CLOSED <= ratio <= CLOSED:
+        elif is_closed(ratio):
             said.insert(0, f"the budget is closed, sum over run {ratio:.2f}")
         elif small:
             said.insert(0, f"sum and run are both within {error_text(study, quantity, own.small)}")
@@ -118,6 +118,11 @@ def beyond(study, quantity):
     """["is beyond what the model states with modes up to 300 Hz (565 Hz of 150 Hz)"] of the variants with which it is."""
     named = [f"{one.name} ({value.beyond})" for one, value in zip(study.variants, study.values[quantity]) if value is not None and value.beyond]
     return [f"is beyond what the model states with {', '.join(named)}"] if named else []
+
+
+def is_closed(ratio):
+    """Whether sum and refined run agree within the factor CLOSED; nan does not."""
+    return 1.0 / CLOSED <= ratio <= CLOSED
 
 
 def verdicts(study):
@@ -160,7 +165,7 @@ def closure_text(found):
     ratio = found.closure()
     if not math.isfinite(ratio):
         return "-"
-    return f"sum / run {ratio:.2f}{'' if 1.0 / CLOSED <= ratio <= CLOSED else ': NOT CLOSED, the settings act on each other or the quantity jumps'}"
+    return f"sum / run {ratio:.2f}{'' if is_closed(ratio) else ': NOT CLOSED, the settings act on each other or the quantity jumps'}"
 
 
 def variant_rows(study, quantity):

@@ -6,13 +6,14 @@ setting. Along a setting whose differences fall steadily with one sign they add 
 the difference from the next coarser one, and between two tested values with step sizes there is one more candidate in the middle (of
 logarithms), with interpolated difference and factors. Along any other setting a small difference is an accident of this scene: a value has the largest
 difference of itself and all finer ones, the finest that of the last refinement, no value in between is proposed, and these differences, whose
-signs say nothing, add in squares. Settings are chosen by the sum of all magnitudes. Errors are against the limit of all settings, not against an exact value.
+signs say nothing, add in squares. Where the budget is closed, everything is multiplied by the refined run over the sum of its parts: what settings
+do to each other. Settings are chosen by the sum of all magnitudes. Errors are against the limit of all settings, not against an exact value.
 Values with which the model does not state the quantity (a frequency above half the cut-off, bands above the spectra) are no candidates.
 
 --at changes keys of the pipeline: another speed, load or clearance than that of the study. The base is run there, and the setting with the largest
 part of the budget at the value before the base's. All differences are taken to be as many times larger as that of these two runs is, from SMALLEST
-times on (a smaller one may be an accident of signs), and the seconds of each stage in proportion to those of the base. The proof is a run there with
-the proposed settings against one with everything refined, of which the proposal has seen nothing.
+times on (a smaller one may be an accident of signs); they add in squares, as signs may be others there. The seconds of each stage are expected in
+proportion to those of the base. The proof is a run there with the proposed settings against one with everything refined, of which the proposal has seen nothing.
 Each proof is a row of proofs.csv in the study's folder; --markdown shows them.
 """
 import csv
@@ -115,9 +116,13 @@ def middle_value(one, other, h, finer):
     return tuple(found)
 
 
-def propose(study, quantity, within, seconds=math.inf, times=1.0):
+def propose(study, quantity, within, seconds=math.inf, times=None):
     """The cheapest Proposal whose error is at most `within` (in the units of errors) and whose seconds are at most `seconds`, of those that cost about the
-    same the one with the smallest error; where there is none, (None, the one with the smallest error within the seconds, or of all). `times`: errors over those of the study."""
+    same the one with the smallest error; where there is none, (None, the one with the smallest error within the seconds, or of all). `times`: errors over those of the study, in another
+    scene than the study's."""
+    signed, times = times is None, times or 1.0
+    ratio = study.budgets[quantity].closure()
+    times /= ratio if findings.is_closed(ratio) else 1.0
     scaled = lambda difference: times * study.scaled(quantity, difference)  # noqa: E731
     lists = [candidates(study, quantity, number) for number in range(len(study.plan.settings))]
     lists = [[one for one in own if not any(one.worse_than(other, scaled) and not other.worse_than(one, scaled) for other in own)] for own in lists]
@@ -139,7 +144,7 @@ def propose(study, quantity, within, seconds=math.inf, times=1.0):
             enough.append(((most, spent), chosen, most, spent))
     cheapest = min((one[3] for one in enough), default=0.0)
     best = min((one for one in enough if one[3] <= SAME * cheapest), key=lambda one: one[0], default=None)
-    return tuple(proposal_of(scaled, base, one) if one else None for one in (best, least))
+    return tuple(proposal_of(scaled, base, one, signed) if one else None for one in (best, least))
 
 
 def factors_of(stages, chosen):
@@ -151,11 +156,11 @@ def seconds_by(wanted, stages, factors):
     return sum(getattr(stage, wanted.cost) * factors[stage.name] for stage in stages)
 
 
-def proposal_of(scaled, base, found):
+def proposal_of(scaled, base, found, signed):
     _, chosen, most, spent = found
     total, squares = chosen[0].difference.times(0.0), 0.0
     for one in chosen:
-        if one.signed:
+        if one.signed and signed:
             total = total.plus(one.difference)
         else:
             squares += one.difference.size()**2
@@ -311,7 +316,7 @@ def answer(study, request, text, seconds, jobs, there=(), at=()):
     place = place_of(study, quantity, jobs, there)
     if at:
         print(f"there: errors are expected {place.times:.2g} times as large as in the study", flush=True)
-    best, least = propose(study, quantity, within, seconds, place.times)
+    best, least = propose(study, quantity, within, seconds, place.times if at else None)
     if best is None:
         print("\n".join(["the nearest:", *report(study, quantity, least)]))
         raise run.Failed(f"{study.plan.path}: no settings of this study are within {findings.error_text(study, quantity, within)}"
