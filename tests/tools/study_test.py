@@ -127,7 +127,7 @@ class Interaction(StandIns):
         # The tolerance rules: 0.4 instead of 0.2. What acts on both settings is most of its error in the study, and is off there.
         self.assertEqual(study.variants[proposal.ruling_variant(study, 0)].name, "tolerance 0.4")
         times = abs(exact(tau=0.4) / exact() - 1.0) / abs(exact(tau=0.4, both=self.both) / exact(both=self.both) - 1.0)
-        self.assertAlmostEqual(place.times, max(times, proposal.SMALLEST), delta=1e-12)
+        self.assertAlmostEqual(place.times, max(times, 1.0), delta=1e-12)
         best, _ = proposal.propose(study, 0, 0.1, times=place.times)
         plain, _ = proposal.propose(study, 0, 0.1 / place.times, times=1.0)
         self.assertEqual((best.values, best.expected), (plain.values, place.times * plain.expected))

@@ -6,13 +6,13 @@ setting. Along a setting whose differences fall steadily with one sign they add 
 the difference from the next coarser one, and between two tested values with step sizes there is one more candidate in the middle (of
 logarithms), with interpolated difference and factors. Along any other setting a small difference is an accident of this scene: a value has the largest
 difference of itself and all finer ones, the finest that of the last refinement, no value in between is proposed, and these differences, whose
-signs say nothing, add in squares. Where the budget is closed, everything is multiplied by the refined run over the sum of its parts: what settings
-do to each other. Settings are chosen by the sum of all magnitudes. Errors are against the limit of all settings, not against an exact value.
+signs say nothing, add in squares. Where the budget is closed and the refined run differs by more than the sum of its parts, everything is
+multiplied by their ratio. Settings are chosen by the sum of all magnitudes. Errors are against the limit of all settings, not against an exact value.
 Values with which the model does not state the quantity (a frequency above half the cut-off, bands above the spectra) are no candidates.
 
 --at changes keys of the pipeline: another speed, load or clearance than that of the study. The base is run there, and the setting with the largest
-part of the budget at the value before the base's. All differences are taken to be as many times larger as that of these two runs is, from SMALLEST
-times on (a smaller one may be an accident of signs); they add in squares, as signs may be others there. The seconds of each stage are expected in
+part of the budget at the value before the base's. All differences are taken to be as many times larger as that of these two runs is, but not
+smaller, as those of other settings need not be; they add in squares, as signs may be others there. The seconds of each stage are expected in
 proportion to those of the base. The proof is a run there with the proposed settings against one with everything refined, of which the proposal has seen nothing.
 Each proof is a row of proofs.csv in the study's folder; --markdown shows them.
 """
@@ -29,7 +29,6 @@ from .run import BASE
 
 MOST = 300_000  # combinations
 SAME = 1.1      # times the seconds: less is noise
-SMALLEST = 0.5  # of the errors elsewhere over those of the study
 
 
 @dataclasses.dataclass
@@ -122,7 +121,7 @@ def propose(study, quantity, within, seconds=math.inf, times=None):
     scene than the study's."""
     signed, times = times is None, times or 1.0
     ratio = study.budgets[quantity].closure()
-    times /= ratio if findings.is_closed(ratio) else 1.0
+    times /= ratio if findings.is_closed(ratio) and ratio < 1.0 else 1.0
     scaled = lambda difference: times * study.scaled(quantity, difference)  # noqa: E731
     lists = [candidates(study, quantity, number) for number in range(len(study.plan.settings))]
     lists = [[one for one in own if not any(one.worse_than(other, scaled) and not other.worse_than(one, scaled) for other in own)] for own in lists]
@@ -196,7 +195,7 @@ def place_of(study, quantity, jobs, changes=()):
     for line in study.lines[quantity].values():
         reference = reference.minus(line.errors[-1])
     there, here = (one.minus(own).size() / scale_of(wanted, quantity, own) for one, own in ((values[1], values[0]), (study.values[quantity][probe], known)))
-    return Place(list(changes), made.stages(artefacts[0]), reference, max(there / here, SMALLEST) if here > 0.0 else 1.0)
+    return Place(list(changes), made.stages(artefacts[0]), reference, max(there / here, 1.0) if here > 0.0 else 1.0)
 
 
 def ruling_variant(study, quantity):
