@@ -157,6 +157,7 @@ void reserve_blas_memory() {
     throw NumericsError(fmt::format(
         "the limit of address space (ulimit -v) leaves {} of memory, expected at least {}",
         memory_text(left / kBytesPerGib), memory_text(1.1 * kBufferBytes / kBytesPerGib)));
+  set_thread_count(1);  // a second thread of ours in BLAS would wait for a buffer of its own
   using Factor = void(const char*, const int*, double*, const int*, int*);
   if (const auto potrf = find_symbol<Factor>("dpotrf_")) {
     const int size = 1;

@@ -25,8 +25,8 @@ void report_blas(const std::string& requested);
 /// Sets the number of threads inside BLAS; no effect without OpenBLAS.
 void set_blas_threads(int count);
 
-/// Takes the buffer of OpenBLAS while there is room, where the address space is limited.
-/// NumericsError when there is none.
+/// Takes the buffer of OpenBLAS while there is room, where the address space is limited; the
+/// program then has one thread of its own as well. NumericsError when there is no room.
 void reserve_blas_memory();
 
 /// Sets the number of BLAS threads while it lives (one while our own threads run); afterwards it is

@@ -100,7 +100,7 @@ class HardP14AddressSpace(hard_pipeline.HardPipeline):
     def test_every_limit_gives_the_result_or_one_line_and_no_stage_waits_for_memory(self):
         ended = {}
         for stage, arguments in COMMANDS.items():
-            for mib in (100, 140, 200):
+            for mib in (100, 140, 200, 240, 280):
                 with self.subTest(stage=stage, mib=mib):
                     done = stages.run_stage(stage, *arguments, "-o", "short.h5", "--quiet", folder=self.folder,
                                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (mib << 20, mib << 20)))
