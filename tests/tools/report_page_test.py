@@ -81,7 +81,7 @@ class Page(Folder):
         self.assertEqual([own["name"] for own in one["quantities"]], ["sound power", "height <slap>"])
         self.assertEqual(base64.b64decode(one["quantities"][0]["picture"]), (self.folder / "study/sound-power.png").read_bytes())
         self.assertIsNone(one["quantities"][1]["picture"])
-        self.assertEqual(one["quantities"][0]["sentences"], ["cells, sound power: 2 % costs 3 s", "steps, sound power: no value changes it"])
+        self.assertEqual(one["quantities"][0]["sentences"], ["sound power: 7", "sound power: the budget is closed, sum over run 1.00", "cells, sound power: 2 % costs 3 s", "steps, sound power: no value changes it"])
         self.assertEqual((one["effects"][1][0], one["proofs"][1]), ("<friction>", ["sound power 0.5", "the study's"]))
         self.assertNotIn("<friction>", text)
 

@@ -3,6 +3,7 @@
 import pathlib
 import tempfile
 import tomllib
+import types
 import unittest
 
 import h5py
@@ -86,6 +87,14 @@ class EffectKeys(unittest.TestCase):
         states = effects.plain_states({"c1: friction": "off", "c3: friction": "on", "c1: oil film": "off", "c3: oil film": "off"},
                                       lambda path: toml_text.value_at(self.SCENE, path))
         self.assertEqual(states, {"friction": "on", "oil film": "off"})
+
+    def test_an_effect_that_needs_another_one_is_not_switched_on_without_it(self):
+        scene = {"contact": {"lubrication": "none", "asperities": True}, "gravity_m_s2": 0.0}
+        pipeline = types.SimpleNamespace(base_value=lambda file, path: toml_text.value_at(scene, path), table=lambda file: scene)
+        wanted = types.SimpleNamespace(path="study.toml", effects=[])
+        for film, names in (("off", ["oil film", "gravity"]), ("on", ["oil film", "cavitation", "gravity"])):
+            states = {"slap.run.toml": {"oil film": film, "cavitation": "off", "gravity": "off"}}
+            self.assertEqual([one.name for one in effects.switches_of(wanted, pipeline, states)], names)
 
     def test_keys_are_those_of_the_scene_and_of_the_cylinders_that_have_their_own(self):
         self.assertEqual(self.keys("friction"), [(("contact", "friction"), False, True), (("cylinder", "c3", "contact", "friction"), False, True)])

@@ -40,6 +40,9 @@ class Sharing(StandIns):
         self.assertEqual(sorted(self.made), ["slap.field.h5", "slap.run.h5"])
         self.write("field.toml", "# new\n")
         self.study()
+        self.assertEqual(self.made, [])
+        self.write("field.toml", "new = 1\n")
+        self.study()
         self.assertEqual(set(self.made), {"slap.field.h5"})
         # The scene that another one is based on has the key: it counts.
         scene = (self.folder / "engine.run.toml").read_text()

@@ -152,7 +152,7 @@ def write_study(folder):
     """A study of two quantities, of which the first has a picture, and its effects."""
     folder.mkdir()
     with synthetic.new_file(folder / "study.h5", "study") as file:
-        for name, texts in (("quantity", QUANTITIES), ("verdict", [f"{one}: the budget is closed, sum over run 1.00" for one in QUANTITIES]),
+        for name, texts in (("quantity", QUANTITIES), ("headline", [f"{one}: 7" for one in QUANTITIES]), ("verdict", [f"{one}: the budget is closed, sum over run 1.00" for one in QUANTITIES]),
                             ("sentences", [f"cells, {one}: 2 % costs 3 s\nsteps, {one}: no value changes it" for one in QUANTITIES])):
             file.create_dataset(f"said/{name}", data=texts, **OPTIONS)
     style.save(style.figure()[0], folder / "sound-power.png")

@@ -25,13 +25,13 @@ function rowsCard(title, [head, ...rows]) {
   );
 }
 
-/** A study: buttons for its quantities; diagram, budget and a sentence for each setting of the chosen one. */
+/** A study: buttons for its quantities; of the chosen one its diagram, the base, the budget, and a sentence for each setting. */
 function studyCard({ name, quantities }) {
   const shown = element("div", {});
   const show = number => {
-    const { name: what, verdict, sentences, picture } = quantities[number];
+    const { name: what, sentences, picture } = quantities[number];
     const drawn = picture && element("img", { src: `data:image/png;base64,${picture}`, alt: `Errors, seconds and budget: ${what}` });
-    shown.replaceChildren(...[drawn, wordList([verdict, ...sentences])].filter(Boolean));
+    shown.replaceChildren(...[drawn, wordList(sentences)].filter(Boolean));
   };
   const chosen = choices(
     "quantity",

@@ -14,14 +14,15 @@ def collect(folder):
 
 
 def study(path):
-    """{"quantities": [{name, verdict, sentences, picture: PNG as base64, None without it}]} of study.h5."""
+    """{"quantities": [{name, sentences, picture: PNG as base64, None without it}]} of study.h5."""
     found = []
     if not path.exists():
         return {"quantities": found}
     with artefact.open_artefact(path, "study") as file:
-        for verdict, said, name in zip(*([artefact.text(one) for one in file[f"said/{key}"][()]] for key in ("verdict", "sentences", "quantity"))):
+        texts = ([artefact.text(one) for one in file[f"said/{key}"][()]] for key in ("quantity", "headline", "verdict", "sentences"))
+        for name, headline, verdict, said in zip(*texts):
             picture = path.parent / f"{slug(name)}.png"
-            found.append({"name": name, "verdict": verdict, "sentences": said.split("\n"),
+            found.append({"name": name, "sentences": [headline, verdict, *said.split("\n")],
                           "picture": base64.b64encode(picture.read_bytes()).decode() if picture.exists() else None})
     return {"quantities": found}
 

@@ -19,6 +19,8 @@ PLAIN = {
     "shapes of bore and skirt": [("contact.bore_shape", [], None), ("contact.skirt_shape", [], None)],
     "gravity": [("gravity_m_s2", 0.0, 9.81)],
 }
+# Effects that are nothing without another one: they are not switched on where it is off.
+NEEDS = {"cavitation": "oil film", "damping of the contact": "asperity contact"}
 # Effect of a table with a name: its pattern, the list of tables, the same.
 NAMED = [
     (r"elastic (.+)", "body", [("model", "rigid", "elastic")]),

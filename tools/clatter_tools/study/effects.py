@@ -37,12 +37,15 @@ class Switch:
     saved: float = float("nan")
 
 
-def switches_of(wanted, pipeline, states):
-    """The Switches of a scene's effects; `states`: {scene file: {effect: "on" or "off"}}."""
+def switches_of(wanted, pipeline, scenes):
+    """The Switches of a scene's effects; `scenes`: {scene file: {effect: "on" or "off"}}."""
     found = []
-    for file, effects in states.items():
+    for file, effects in scenes.items():
         value_of = lambda path, file=file: pipeline.base_value(file, path)  # noqa: E731
-        for name, state in plain_states(effects, value_of).items():
+        states = plain_states(effects, value_of)
+        for name, state in states.items():
+            if state == "off" and states.get(effect_keys.NEEDS.get(name), "on") == "off":
+                continue
             values = [(path, off if state == "on" else on) for path, off, on in effect_keys.keys_of(name, value_of)]
             if values and all(value is not None for _, value in values):
                 found.append(switch(wanted, pipeline, name, "off" if state == "on" else "on", [((file, path), value) for path, value in values]))

@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """effects.html: what each effect changes and costs, as one page in the style of study.html."""
-import html
-
 from . import effects as effects_of
 from . import results
-from .page import page_of, rows_of, section
+from .page import page_of, rows_of, section, words
 
 
 def write(effects):
     """Writes effects.html into the study's folder; returns its path."""
-    sentences = "".join(f"<li>{html.escape(one)}.</li>" for one in effects_of.report(effects))
-    body = [section("What each effect changes and costs", f'<div class="card"><ul>{sentences}</ul></div>')]
+    body = [section("What each effect changes and costs", f'<div class="card">{words(effects_of.report(effects))}</div>')]
     if effects.switches:
         body.append(section("By effect", f'<div class="card">{rows_of(effects_of.rows(effects))}</div>'))
     base = [["quantity", "value of the scene"], *([own.name, f"{value.number():.6g} {own.unit}".rstrip() if value.is_number else f"{len(value.values)} values"]

@@ -80,6 +80,21 @@ def front(study, quantity):
     return convergence.pareto(costs, [study.error(quantity, k) for k in range(len(study.variants))])
 
 
+def headline(study, quantity):
+    """"sound power: 87.1 dB(A), total error 0.19 dB(A) for 156 s; film cells along rules with 0.19 dB(A)"."""
+    own, value = study.plan.quantities[quantity], study.values[quantity][BASE]
+    known = f"{f'{value.number():.4g} {own.unit}'.rstrip()}, " if value.is_number else ""
+    parts = [(study.scaled(quantity, part.size()), study.plan.settings[number].name) for number, part in study.budgets[quantity].parts]
+    error, name = max(parts, default=(0.0, ""))
+    ruled = f"; {name} rules with {error_text(study, quantity, error)}" if error > NOTHING * study.size(quantity) else ""
+    return f"{own.name}: {known}total error {error_text(study, quantity, study.error(quantity, BASE))} for {seconds_text(study.cost(BASE, quantity))}{ruled}"
+
+
+def headlines(study):
+    """Of the base, a line for each quantity."""
+    return [headline(study, quantity) for quantity in range(len(study.plan.quantities))]
+
+
 def unsettled(study, quantity):
     """[(number of the setting, last change, the change before)] along which a quantity does not converge: the last refinement changes it by more than
     the one before."""
@@ -184,7 +199,7 @@ def variant_rows(study, quantity):
 
 def report(study):
     """All lines that `clatter study` prints."""
-    lines = []
+    lines = [*headlines(study), ""]
     for quantity in range(len(study.plan.quantities)):
         for rows in (variant_rows(study, quantity), budget_rows(study, quantity)):
             lines += [*table(rows[0], rows[1:]), ""]

@@ -41,7 +41,8 @@ def write(study):
     style.apply()
     body = [section("What accuracy costs", summary(study))]
     for quantity, own in enumerate(study.plan.quantities):
-        body.append(section(own.name, f'<figure>{diagram(study, quantity)}</figure><div class="grid">'
+        sentences = words([findings.sentence(study, quantity, number) for number in range(len(study.plan.settings))])
+        body.append(section(own.name, f'<figure>{diagram(study, quantity)}</figure><div class="card">{sentences}</div><div class="grid">'
                             f'<div class="card">{rows_of(findings.budget_rows(study, quantity))}</div>'
                             f'<div class="card">{rows_of(findings.variant_rows(study, quantity))}</div></div>'))
     body.append(section("Cost of the stages of the base", f'<div class="card">{rows_of(stage_cells(study))}</div>'))
@@ -59,8 +60,11 @@ def section(title, body):
 
 
 def summary(study):
-    sentences = "".join(f"<li>{html.escape(one)}.</li>" for one in [*findings.sentences(study), *findings.verdicts(study)])
-    return f'<div class="card"><ul>{sentences}</ul></div>'
+    return f'<div class="card">{words(findings.headlines(study))}</div><div class="card">{words(findings.verdicts(study))}</div>'
+
+
+def words(sentences):
+    return f"<ul>{''.join(f'<li>{html.escape(one)}.</li>' for one in sentences)}</ul>"
 
 
 def diagram(study, quantity):

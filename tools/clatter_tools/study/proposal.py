@@ -116,9 +116,9 @@ def middle_value(one, other, h, finer):
 
 
 def propose(study, quantity, within, seconds=math.inf, times=None):
-    """The cheapest Proposal whose error is at most `within` (in the units of errors) and whose seconds are at most `seconds`, of those that cost about the
-    same the one with the smallest error; where there is none, (None, the one with the smallest error within the seconds, or of all). `times`: errors over those of the study, in another
-    scene than the study's."""
+    """(the cheapest Proposal whose error is at most `within`, in the units of errors, and whose seconds are at most `seconds`, of those that cost about
+    the same the one with the smallest error; None where there is none, the one with the smallest error within the seconds, or of all). `times`: errors
+    over those of the study, in another scene than the study's."""
     signed, times = times is None, times or 1.0
     ratio = study.budgets[quantity].closure()
     times /= ratio if findings.is_closed(ratio) and ratio < 1.0 else 1.0

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """study.h5 (docs/formats.md) and study.csv of a study."""
 import csv
-import os
-import pathlib
 
 import h5py
 import numpy as np
 
-from ..artefact import CannotWrite, schema_of
+from ..artefact import schema_of
+from ..whole_file import whole_file
 from . import convergence, findings
 
 
@@ -18,16 +17,9 @@ def write(study):
 
 
 def whole(path, fill_part):
-    """Writes a file under another name, and renames it."""
-    part = pathlib.Path(f"{path}.part")
-    try:
+    """Writes a file by fill_part(its temporary path), complete or not at all; returns its path."""
+    with whole_file(path) as part:
         fill_part(part)
-        with open(part, "rb") as stream:
-            os.fsync(stream.fileno())
-        os.replace(part, path)
-    except OSError as error:
-        part.unlink(missing_ok=True)
-        raise CannotWrite(f"{path}: cannot be written: {error.strerror or error}") from error
     return path
 
 
@@ -55,6 +47,7 @@ def fill(study, path):
             fill_quantity(study, quantity, own, put)
         numbers, settings = range(len(plan.quantities)), range(len(plan.settings))
         put("said/quantity", [own.name for own in plan.quantities], "1", "quantities, a row of the texts of this group each")
+        put("said/headline", findings.headlines(study), "1", "value, error and seconds of the base, what rules")
         put("said/verdict", [findings.verdict(study, k) for k in numbers], "1", "whether the budget is closed")
         put("said/sentences", ["\n".join(findings.sentence(study, k, number) for number in settings) for k in numbers], "1",
             "what an error costs, a line for each setting")

@@ -136,8 +136,8 @@ class Making:
     def values(self, own, folder=""):
         """[Value or None] of the quantities of a variant: None where its file could not be made or, with a message that names the variant's `folder`, has
         not what the quantity takes, which in the base (without a folder) is a BadArtefact."""
-        files = {one.name: self.store.path(one) for one in own}
-        return [self.value(one, files[one.file], folder) if files.get(one.file, self.wanted.path.parent / "-").exists() else None for one in self.wanted.quantities]
+        files = {one.name: self.store.path(one) for one in own if self.store.path(one).exists()}
+        return [self.value(one, files[one.file], folder) if one.file in files else None for one in self.wanted.quantities]
 
     def value(self, quantity, path, folder):
         try:

@@ -9,6 +9,7 @@ import pathlib
 import re
 import signal
 import subprocess
+import tomllib
 
 from .. import artefact
 from ..artefact import BadArtefact, CannotWrite
@@ -212,8 +213,9 @@ class VariantFiles:
                 queue += self.pipeline.named_by(self.tables(one))
             else:
                 given[one] = self.store.digest(one)
+        contents = {key: toml_text.text_of(tomllib.loads(value)) for key, value in texts.items()}  # comments do not count
         lists = [[self.pipeline.commands(name)], *([f"{key}={value}" for key, value in sorted(found.items())]
-                                         for found in (given, texts, {key: made.folder for key, made in inputs.items()}))]
+                                         for found in (given, contents, {key: made.folder for key, made in inputs.items()}))]
         digest = hashlib.sha256("".join(f"{len(part)} {part}\n" for part in [name, *(one for parts in lists for one in parts)]).encode()).hexdigest()
         made = Made(name, f"{name.removesuffix('.h5')}-{digest[:16]}", texts, inputs)
         self.known[name] = self.store.made.setdefault(made.folder, made)
