@@ -2,8 +2,6 @@
 // A cantilever against beam theory and against CalculiX on the same mesh.
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -21,6 +19,7 @@
 #include "core/mesh/shape.hpp"
 #include "mesh/exports/mesh_export.hpp"
 #include "small_solver.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
@@ -119,8 +118,7 @@ std::vector<double> read_hz(const std::filesystem::path& path) {
 /// CalculiX's ten lowest frequencies of the mesh, clamped at x0; empty without CalculiX.
 std::vector<double> calculix_hz(const mesh::Mesh& mesh) {
   if (std::system("command -v ccx > /dev/null 2>&1") != 0) return {};
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("clatter_ccx_" + std::to_string(getpid()));
+  const std::filesystem::path folder = test::scratch_path("ccx");
   std::filesystem::create_directories(folder);
   mesh::Mesh clamped = mesh;
   clamped.node_sets["x0"] = mesh::nodes_of(mesh.surface("x0"));

@@ -15,6 +15,7 @@
 #include "core/fe/fe_model.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "tests/paths.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
@@ -25,7 +26,7 @@ constexpr const char* kSteelToml =
 class AssemblyCommand : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() / ("clatter_asm_" + std::to_string(getpid()));
+    folder_ = test::scratch_path("asm");
     std::filesystem::create_directories(folder_);
     save(block_mesh({2, 1, 1}, brick({0.2, 0.1, 0.1})));
   }

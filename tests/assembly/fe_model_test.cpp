@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <filesystem>
 
 #include "block_mesh.hpp"
@@ -12,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "small_solver.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
@@ -34,10 +33,7 @@ surface = "z1"
 
 class FeModelFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    path_ = std::filesystem::temp_directory_path() /
-            ("clatter_fe_" + std::to_string(getpid()) + ".fe.h5");
-  }
+  void SetUp() override { path_ = test::scratch_path("fe.fe.h5"); }
   void TearDown() override { std::filesystem::remove(path_); }
   void save(const fe::FeModel& model) const {
     H5File file = H5File::create(path_);

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include "one_cell.hpp"
 #include "small_solver.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 #include "two_parts.hpp"
 #include "warm_wall.hpp"
 
@@ -324,8 +324,7 @@ TEST(HeatInput, OneTieHasOneConductance) {
 }
 
 TEST(HeatFile, ReturnsTheFieldsAndTheConductivity) {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() /
-                                     ("clatter_heat_" + std::to_string(getpid()) + ".fe.h5");
+  const std::filesystem::path path = test::scratch_path("heat.fe.h5");
   const fe::FeModel model = build_all(wall_of(CellType::kTet4), kIron + kWall).model;
   H5File file = H5File::create(path);
   write_provenance(file, {fe::kFeSchema, "", {}});

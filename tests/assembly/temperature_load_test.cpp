@@ -2,7 +2,6 @@
 // Temperatures of loads: of a heat, by regions, from a table.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,7 +9,9 @@
 #include <set>
 
 #include "assembly/recipe/temperature_table.hpp"
+#include "core/fe/heat.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 #include "warm_wall.hpp"
 
 namespace clatter::assembly::testing {
@@ -68,10 +69,7 @@ TEST(TemperatureLoad, ByRegionsIsConstantInEachAndTheMeanBetween) {
 
 class TemperatureFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    path_ = std::filesystem::temp_directory_path() /
-            ("clatter_temperature_" + std::to_string(getpid()) + ".csv");
-  }
+  void SetUp() override { path_ = test::scratch_path("temperature.csv"); }
   void TearDown() override { std::filesystem::remove(path_); }
   void write(const std::string& text) const { std::ofstream(path_) << text; }
   std::filesystem::path path_;

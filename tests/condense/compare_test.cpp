@@ -15,6 +15,7 @@
 #include "tests/condense/box_model.hpp"
 #include "tests/paths.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter {
 namespace {
@@ -34,7 +35,7 @@ rom::ReducedModel reduce(const fe::FeModel& model, double fmax_hz) {
 class InFolder : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("clatter_modes_" + std::to_string(::getpid()));
+    folder_ = test::scratch_path("modes");
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }

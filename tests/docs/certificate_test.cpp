@@ -18,6 +18,7 @@
 #include "recover/sound/sound_certificate.hpp"
 #include "tests/paths.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter {
 namespace {
@@ -59,7 +60,7 @@ C filled(int step) {
 class Certificates : public ::testing::Test {
  protected:
   Certificates() {
-    std::string name = (std::filesystem::temp_directory_path() / "clatter_certificate_XXXXXX");
+    std::string name = test::scratch_path("certificate_XXXXXX");
     folder_ = ::mkdtemp(name.data());
   }
   ~Certificates() override { std::filesystem::remove_all(folder_); }

@@ -3,7 +3,6 @@
 // of two chains with formulas for them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include "core/base/matrix_text.hpp"
 #include "core/modes/analysis.hpp"
 #include "tests/core/sparse/spring_models.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter::modal {
 namespace {
@@ -23,8 +23,7 @@ constexpr double kStiffer = 1.0005;
 
 /// Both triangles, 17 digits.
 std::filesystem::path write_coordinates(const std::string& name, const SparseMatrix& lower) {
-  const auto path =
-      std::filesystem::temp_directory_path() / fmt::format("clatter_{}_{}.mtx", name, ::getpid());
+  const auto path = test::scratch_path(fmt::format("{}.mtx", name));
   std::ofstream file(path);
   for (int j = 0; j < lower.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include "static_bar.hpp"
 #include "tests/paths.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter::modal {
 namespace {
@@ -28,8 +28,7 @@ using testing::kSlide;
 class StaticFiles : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ =
-        std::filesystem::temp_directory_path() / ("clatter_static_" + std::to_string(getpid()));
+    folder_ = test::scratch_path("static");
     std::filesystem::create_directories(folder_);
     H5File file = H5File::create(folder_ / "bar.fe.h5");
     write_provenance(file, {fe::kFeSchema, "", {}});

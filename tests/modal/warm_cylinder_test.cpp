@@ -2,7 +2,6 @@
 // From films to the shape of a bore: a hollow cylinder with a logarithmic temperature (Timoshenko
 // and Goodier, long cylinder held at its ends).
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include "modal/statics.hpp"
 #include "small_solver.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter::modal {
 namespace {
@@ -137,8 +137,7 @@ TEST(WarmCylinder, WidensByTheClosedForm) {
 class ShapeFile : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ =
-        std::filesystem::temp_directory_path() / ("clatter_shape_" + std::to_string(getpid()));
+    folder_ = test::scratch_path("shape");
     std::filesystem::create_directory(folder_);
     const fe::FeModel model = cylinder(mesh::CellType::kHex20, 2);
     H5File file = H5File::create(folder_ / "part.static.h5");

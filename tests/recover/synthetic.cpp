@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/artefact.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter::recover::testing {
 namespace {
@@ -190,8 +191,7 @@ std::filesystem::path write_run(const std::filesystem::path& folder, const rom::
 }
 
 std::filesystem::path fresh_folder(const std::string& name) {
-  const auto folder = std::filesystem::temp_directory_path() /
-                      ("clatter_recover_" + name + "_" + std::to_string(::getpid()));
+  const auto folder = test::scratch_path("recover_" + name);
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

@@ -26,6 +26,7 @@
 #include "tests/plain_faults.hpp"
 #include "tests/random_matrix.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter {
 namespace {
@@ -205,8 +206,7 @@ bool comes_true(const std::function<bool()>& holds) {
 
 TEST(HardN17_ChildProcess, ASignalToTheParentTakesTheChildAndTheScratchWithIt) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGKILL}) {
-    const auto folder = std::filesystem::temp_directory_path() /
-                        ("clatter_child_" + std::to_string(::getpid()) + std::to_string(signal));
+    const auto folder = test::scratch_path(fmt::format("child_{}", signal));
     std::filesystem::create_directories(folder / "scratch");
     const pid_t waiter = start_waiter(folder / "pid", folder / "scratch");
     ASSERT_TRUE(comes_true([&] { return std::filesystem::exists(folder / "pid"); }));

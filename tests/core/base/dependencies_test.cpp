@@ -9,6 +9,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/base/write_artefact.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter {
 namespace {
@@ -18,9 +19,7 @@ namespace fs = std::filesystem;
 class HardP2_Dependencies : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              (std::string("clatter_core_") +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = test::scratch_path("dependencies");
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     artefact_ = folder_ / "part.mesh.h5";

@@ -9,6 +9,7 @@
 #include "core/base/sparse.hpp"
 #include "core/rom/reduced_model.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter {
 namespace {
@@ -18,8 +19,7 @@ namespace fs = std::filesystem;
 class Files : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("clatter_core_") + test->name());
+    folder_ = test::scratch_path("files");
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }

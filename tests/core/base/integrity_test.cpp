@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/base/h5_file.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter {
 namespace {
@@ -53,8 +54,7 @@ Content read_all(const fs::path& path) {
 class Integrity : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              fs::path(::testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = test::scratch_path("integrity");
     fs::create_directories(folder_);
     path_ = folder_ / "a.h5";
   }

@@ -22,6 +22,7 @@
 #include "core/base/whole_file.hpp"
 #include "core/base/write_artefact.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter {
 namespace {
@@ -50,8 +51,7 @@ TEST(Threads, AnExceptionInAPieceReachesTheCaller) {
 }
 
 TEST(WholeFile, IsReadByteByByteAndFoldersAreRefused) {
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("clatter_whole_" + std::to_string(::getpid()));
+  const std::filesystem::path path = test::scratch_path("whole");
   const std::string bytes("a\r\n\0\xff b", 8);
   write_whole_file(path, bytes);
   EXPECT_EQ(read_whole_file(path), bytes);
@@ -67,8 +67,7 @@ TEST(WholeFile, IsReadByteByByteAndFoldersAreRefused) {
 
 /// The files left when `signal` ends a process that writes an HDF5 file and text files.
 void end_while_writing(int signal) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("clatter_signal_" + std::to_string(::getpid()));
+  const std::filesystem::path folder = test::scratch_path("signal");
   std::filesystem::create_directories(folder);
   const pid_t child = ::fork();
   if (child == 0) {
@@ -204,7 +203,7 @@ TEST(CommandLine, AnOptionThatBecameACommandIsNamed) {
 }
 
 TEST(WriteArtefact, HasProvenanceAndTimingAndKeepsTheOlderFileOnAnError) {
-  const auto folder = std::filesystem::temp_directory_path() / "clatter_write_artefact_test";
+  const auto folder = test::scratch_path("write_artefact_test");
   std::filesystem::create_directories(folder);
   const auto output = folder / "a.h5", input = folder / "a.toml";
   write_whole_file(input, "x = 1\n");
@@ -230,7 +229,7 @@ TEST(WriteArtefact, HasProvenanceAndTimingAndKeepsTheOlderFileOnAnError) {
 }
 
 TEST(CommandLine, TheDepfileNamesEachInputTwice) {
-  const auto path = std::filesystem::temp_directory_path() / "clatter_depfile_test.d";
+  const auto path = test::scratch_path("depfile_test.d");
   write_depfile(path, "a.h5", {"a.toml", "b.csv"});
   std::stringstream text;
   text << std::ifstream(path).rdbuf();
@@ -239,7 +238,7 @@ TEST(CommandLine, TheDepfileNamesEachInputTwice) {
 }
 
 TEST(ErrorPositions, AreParsedFromTheMessage) {
-  const auto folder = std::filesystem::temp_directory_path() / "clatter_error_positions: 7";
+  const auto folder = test::scratch_path("error_positions: 7");
   std::filesystem::create_directories(folder);
   const std::string file = (folder / "a.toml").string();
   std::ofstream(file) << "x = 1\n";

@@ -11,6 +11,7 @@
 #include "core/base/h5_file.hpp"
 #include "tests/observed.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter {
 namespace {
@@ -27,8 +28,7 @@ class HardH3_OpenElsewhere : public ::testing::Test {
     ::close(descriptor_);
     std::filesystem::remove(path_);
   }
-  const std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / "clatter_core_open_elsewhere.h5";
+  const std::filesystem::path path_ = test::scratch_path("core_open_elsewhere.h5");
   int descriptor_ = -1;
 };
 

@@ -11,6 +11,7 @@
 
 #include "tests/mesh/deck/nastran/support.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter::test {
 namespace {
@@ -52,7 +53,7 @@ TEST(NastranHostile, LongLinesAreRefusedAndLongCommentsPassed) {
   EXPECT_THAT(refusal(kTet + ten_megabytes + "\n"),
               StartsWith("t.bdf:8: found a line of more than 65536"));
   EXPECT_EQ(refusal(kTet + "$" + ten_megabytes + "\n"), "");
-  const auto file = std::filesystem::temp_directory_path() / "clatter_long_line.bdf";
+  const auto file = test::scratch_path("long_line.bdf");
   for (const bool comment : {true, false}) {
     std::ofstream(file) << kTet << (comment ? "$" : "") << ten_megabytes << "\nENDDATA\n";
     if (comment) {

@@ -15,6 +15,7 @@
 #include "tests/mesh/deck/deck_text.hpp"
 #include "tests/mesh/deck/nastran/support.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter::test {
 namespace {
@@ -261,9 +262,7 @@ class NastranTree : public testing::Test {
   static constexpr int kPanels = 16, kShells = 5, kBars = 3;
 
   void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() /
-              fmt::format("clatter_tree_{}_{}", ::getpid(),
-                          testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = test::scratch_path("tree");
     std::filesystem::remove_all(folder_);
     write("bulk/materials.blk",
           "MAT1,1,7.+10,,.3,2700.\nPSHELL,1,1,.001\nPBARL,2,1,,ROD,+\n+,.01\n");

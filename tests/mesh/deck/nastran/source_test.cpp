@@ -9,6 +9,7 @@
 
 #include "tests/mesh/deck/nastran/support.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter::test {
 namespace {
@@ -20,9 +21,7 @@ using testing::StartsWith;
 class NastranInclude : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() /
-              fmt::format("clatter_include_{}_{}", ::getpid(),
-                          testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = test::scratch_path("include");
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_ / "sub" / "deep");
   }

@@ -16,6 +16,7 @@
 #include "tests/assembly/block_mesh.hpp"
 #include "tests/mesh/deck/nastran/support.hpp"
 #include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
 
 namespace clatter::test {
 namespace {
@@ -162,7 +163,7 @@ TEST(NastranWriter, ACardThatWasChangedCountsMoreThanItsComment) {
 }
 
 TEST(NastranWriter, IsTheExportToBdf) {
-  const auto file = std::filesystem::temp_directory_path() / "clatter_export.bdf";
+  const auto file = test::scratch_path("export.bdf");
   const Mesh mesh = read_deck(kTet).mesh;
   mesh::export_mesh(mesh, file);
   expect_same(mesh, mesh::deck::read_nastran(file).mesh);
@@ -170,7 +171,7 @@ TEST(NastranWriter, IsTheExportToBdf) {
 }
 
 TEST(NastranWriter, WritesCompleteFilesOrNone) {
-  const auto folder = std::filesystem::temp_directory_path() / "clatter_nastran_writer";
+  const auto folder = test::scratch_path("nastran_writer");
   std::filesystem::create_directories(folder);
   const Mesh mesh = read_deck(kTet).mesh;
   mesh::deck::write_nastran(mesh, folder / "a.bdf");
