@@ -9,7 +9,7 @@
 #include <set>
 
 #include "assembly/recipe/temperature_table.hpp"
-#include "core/fe/heat.hpp"
+#include "core/fe/fe_model.hpp"
 #include "tests/refusal.hpp"
 #include "tests/scratch.hpp"
 #include "warm_wall.hpp"
