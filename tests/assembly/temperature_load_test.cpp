@@ -10,6 +10,7 @@
 
 #include "assembly/recipe/temperature_table.hpp"
 #include "core/fe/fe_model.hpp"
+#include "small_solver.hpp"
 #include "tests/refusal.hpp"
 #include "tests/scratch.hpp"
 #include "warm_wall.hpp"
