@@ -123,15 +123,24 @@ class Interaction(StandIns):
 
     def test_a_proposal_is_proved_in_a_scene_that_the_study_has_not_seen(self):
         study = self.study()
-        place = proposal.place_of(study, 0, 2, proposal.elsewhere(study.plan, ["slap.run.toml:more.both=0.0"]))
+        within = 0.1
+        place = proposal.place_of(study, 0, 2, proposal.elsewhere(study.plan, ["slap.run.toml:more.both=0.0"]), within)
         reference = exact(0.5, 0.05, 8) - sum(line.errors[-1].number() for line in study.lines[0].values())
-        # The tolerance rules: 0.4 instead of 0.2. What acts on both settings is most of its error in the study, and is off there.
-        self.assertEqual(study.variants[proposal.ruling_variant(study, 0)].name, "tolerance 0.4")
-        times = abs(exact(tau=0.4) / exact() - 1.0) / abs(exact(tau=0.4, both=self.both) / exact(both=self.both) - 1.0)
-        self.assertAlmostEqual(place.times, max(times, 1.0), delta=1e-12)
-        best, _ = proposal.propose(study, 0, 0.1, times=place.times)
-        plain, _ = proposal.propose(study, 0, 0.1 / place.times, times=1.0)
-        self.assertEqual((best.values, best.expected), (plain.values, place.times * plain.expected))
+        # Each setting that matters has the value before the base's: of the modes 1 instead of 2, which here change more than a tenth of what is asked for.
+        neighbours = proposal.those_that_matter(study, 0, within)
+        self.assertEqual([study.variants[one].name for one in neighbours.values()], ["cell size 4 mm", "tolerance 0.4", "modes 1"])
+        times = []
+        for changed in ({"h": 4.0}, {"tau": 0.4}, {"n": 1}):
+            there, here = (abs(exact(both=both, **changed) / exact(both=both) - 1.0) for both in (0.0, self.both))
+            times.append(max(there / here, proposal.LEAST))
+        np.testing.assert_allclose(place.times, times, rtol=1e-9)
+        # Of what changes less nothing is run there: it is taken to change as much as the worst of the others, but not less than here.
+        self.assertEqual([study.variants[one].name for one in proposal.those_that_matter(study, 0, 1e3 * within).values()], ["tolerance 0.4"])
+        rough = proposal.place_of(study, 0, 2, place.changes, 1e3 * within).times
+        np.testing.assert_allclose(rough, [max(times[1], 1.0), times[1], max(times[1], 1.0)], rtol=1e-9)
+        best, _ = proposal.propose(study, 0, within, times=place.times)
+        plain, _ = proposal.propose(study, 0, within, times=[1.0] * 3)
+        self.assertLess(best.seconds, plain.seconds)  # what acts on both settings is most of their errors in the study, and is off there
         self.assertLessEqual(best.expected, best.most)
         h, tau, n = (value[0] for value in best.values)
         write_given(self.given, 0.0, [h], [None, n], [None, tau])

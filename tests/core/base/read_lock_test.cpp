@@ -36,7 +36,7 @@ class HardH3_OpenElsewhere : public ::testing::Test {
 TEST_F(HardH3_OpenElsewhere, ForChangesIsSaid) {
   ASSERT_EQ(::flock(descriptor_, LOCK_EX), 0);
   const std::string said = test::refusal_of<FileError>([&] { H5File::open(path_); });
-  test::observed("refused: " + said.substr(said.find("clatter_core")));
+  test::observed("refused: " + said.substr(said.find("core_open_elsewhere")));
   test::expect_parts(said, {path_.string(), "another program has it open for changes", "h5py"});
   ASSERT_EQ(::flock(descriptor_, LOCK_UN), 0);
   EXPECT_EQ(H5File::open(path_).read_doubles("x").at(0), 1.0);

@@ -10,9 +10,10 @@ signs say nothing, add in squares. Where the budget is closed and the refined ru
 multiplied by their ratio. Settings are chosen by the sum of all magnitudes. Errors are against the limit of all settings, not against an exact value.
 Values with which the model does not state the quantity (a frequency above half the cut-off, bands above the spectra) are no candidates.
 
---at changes keys of the pipeline: another speed, load or clearance than that of the study. The base is run there, and the setting with the largest
-part of the budget at the value before the base's. All differences are taken to be as many times larger as that of these two runs is, but not
-smaller, as those of other settings need not be; they add in squares, as signs may be others there. The seconds of each stage are expected in
+--at changes keys of the pipeline: another speed, load or clearance than that of the study. The base is run there, and with it each setting that
+matters at the value before the base's: the differences along that setting are taken to be as many times as large as that of these two runs is, but not
+less than half, as a small one may be an accident. Along settings that matter less they are as many times as large as along the worst of the others, but not smaller.
+All add in squares, as signs may be others there. The seconds of each stage are expected in
 proportion to those of the base. The proof is a run there with the proposed settings against one with everything refined, of which the proposal has seen nothing.
 Each proof is a row of proofs.csv in the study's folder; --markdown shows them.
 """
@@ -29,6 +30,8 @@ from .run import BASE
 
 MOST = 300_000  # combinations
 SAME = 1.1      # times the seconds: less is noise
+MATTERS = 0.1   # of the requested error: settings whose neighbours differ by less are not run in another scene
+LEAST = 0.5     # times the study's differences: smaller ones in another scene may be an accident
 
 
 @dataclasses.dataclass
@@ -117,13 +120,14 @@ def middle_value(one, other, h, finer):
 
 def propose(study, quantity, within, seconds=math.inf, times=None):
     """(the cheapest Proposal whose error is at most `within`, in the units of errors, and whose seconds are at most `seconds`, of those that cost about
-    the same the one with the smallest error; None where there is none, the one with the smallest error within the seconds, or of all). `times`: errors
-    over those of the study, in another scene than the study's."""
-    signed, times = times is None, times or 1.0
+    the same the one with the smallest error; None where there is none, the one with the smallest error within the seconds, or of all). `times`: differences
+    along each setting over those of the study, in another scene than the study's."""
+    signed, times = times is None, times or [1.0] * len(study.plan.settings)
     ratio = study.budgets[quantity].closure()
-    times /= ratio if findings.is_closed(ratio) and ratio < 1.0 else 1.0
-    scaled = lambda difference: times * study.scaled(quantity, difference)  # noqa: E731
-    lists = [candidates(study, quantity, number) for number in range(len(study.plan.settings))]
+    more = 1.0 / ratio if findings.is_closed(ratio) and ratio < 1.0 else 1.0
+    scaled = lambda difference: more * study.scaled(quantity, difference)  # noqa: E731
+    lists = [[dataclasses.replace(one, difference=one.difference.times(times[number])) for one in candidates(study, quantity, number)]
+             for number in range(len(study.plan.settings))]
     lists = [[one for one in own if not any(one.worse_than(other, scaled) and not other.worse_than(one, scaled) for other in own)] for own in lists]
     if math.prod(map(len, lists)) > MOST:
         tested = [{value for value in setting.values} for setting in study.plan.settings]
@@ -168,51 +172,59 @@ def proposal_of(scaled, base, found, signed):
 
 @dataclasses.dataclass
 class Place:
-    """Where proposals are proved: files that differ there ([] in the study's own scene), stages of the base, the reference of the quantity, and errors
-    of the base there over those in the study."""
+    """Where proposals are proved: files that differ there ([] in the study's own scene), stages of the base, the reference of the quantity, and differences
+    there over those in the study, along each setting (None in the study's own scene)."""
     changes: list
     stages: list
     reference: Value
-    times: float
+    times: list
 
 
-def place_of(study, quantity, jobs, changes=()):
-    """The Place of changes, [((file, path of keys), value)], by runs there of the base, of the ruling setting at another value and of everything refined;
-    Failed where one cannot be made."""
+def place_of(study, quantity, jobs, changes=(), within=0.0):
+    """The Place of changes, [((file, path of keys), value)], by runs there of the base, of everything refined and of the settings that matter for an error of
+    `within`, each at another value; Failed where one cannot be made."""
     wanted, base = study.plan, study.variants[BASE].values
     known = study.values[quantity][BASE]
     refined = study.budgets[quantity].refined
     limit = convergence.total_reference(None, study.lines[quantity], known, None if refined is None else known.minus(refined))
     if not changes:
-        return Place([], study.stages[BASE], limit, 1.0)
-    probe = ruling_variant(study, quantity)
-    chosen = [variants.Variant("base", base), study.variants[probe], variants.Variant("refined", tuple(setting.values[-1] for setting in wanted.settings))]
+        return Place([], study.stages[BASE], limit, None)
+    neighbours = those_that_matter(study, quantity, within)
+    chosen = [variants.Variant("base", base), variants.Variant("refined", tuple(setting.values[-1] for setting in wanted.settings)),
+              *(study.variants[one] for one in neighbours.values())]
     made, artefacts = make_there(study, quantity, chosen, changes, jobs)
     values = [made.values(own)[quantity] for own in artefacts]
-    if any(value is None for value in values):
-        raise run.Failed(f"{wanted.path}: --at: a run there, of the base, {chosen[1].name} or everything refined, cannot be made: see what its stage says above")
-    reference = values[2]
+    missing = [one.name for one, value in zip(chosen, values) if value is None]
+    if missing:
+        raise run.Failed(f"{wanted.path}: --at: the run there of {', '.join(missing)} cannot be made: see what its stage says above")
+    reference = values[1]
     for line in study.lines[quantity].values():
         reference = reference.minus(line.errors[-1])
-    there, here = (one.minus(own).size() / scale_of(wanted, quantity, own) for one, own in ((values[1], values[0]), (study.values[quantity][probe], known)))
-    return Place(list(changes), made.stages(artefacts[0]), reference, max(there / here, 1.0) if here > 0.0 else 1.0)
+    known_times = {number: max(LEAST, difference(wanted, quantity, value, values[0]) / difference(wanted, quantity, study.values[quantity][variant], known))
+                   for (number, variant), value in zip(neighbours.items(), values[2:])}
+    others = max(1.0, *known_times.values())
+    return Place(list(changes), made.stages(artefacts[0]), reference, [known_times.get(number, others) for number in range(len(wanted.settings))])
 
 
-def ruling_variant(study, quantity):
-    """The number of the variant in which the setting with the largest part of the budget has the value before the base's, or else the one after it."""
-    parts = {number: part.size() for number, part in study.budgets[quantity].parts}
-    for number in sorted(parts, key=lambda number: -parts[number]):
-        found = study.lines[quantity][number].variants
-        at = found.index(BASE) if BASE in found else len(found)
-        order = [*reversed(found[:at]), *found[at + 1:]]
+def difference(wanted, quantity, value, base):
+    """The size of that of two values of a quantity, in the units of errors."""
+    scale = base.size() if wanted.quantities[quantity].relative and base.size() > 0.0 else 1.0
+    return value.minus(base).size() / scale
+
+
+def those_that_matter(study, quantity, within):
+    """{number of a setting: variant with its value before the base's, or else the one after it}, of the settings along which these differ from the base by at
+    least MATTERS of an error of `within`; of the one with the largest difference if there is none."""
+    known, found = study.values[quantity][BASE], {}
+    for number, line in study.lines[quantity].items():
+        at = line.variants.index(BASE) if BASE in line.variants else len(line.variants)
+        order = [*reversed(line.variants[:at]), *line.variants[at + 1:]]
         if order:
-            return order[0]
-    raise run.Failed(f"{study.plan.path}: --at: found no setting with another value than the base's, expected one")
-
-
-def scale_of(wanted, quantity, reference):
-    """What differences are divided by for an error."""
-    return reference.size() if wanted.quantities[quantity].relative and reference.size() > 0.0 else 1.0
+            found[number] = (order[0], difference(study.plan, quantity, study.values[quantity][order[0]], known))
+    largest = max((size for _, size in found.values()), default=0.0)
+    if largest <= 0.0:
+        raise run.Failed(f"{study.plan.path}: --at: found no setting that changes {study.plan.quantities[quantity].name}, expected one")
+    return {number: variant for number, (variant, size) in found.items() if size >= min(MATTERS * within, largest)}
 
 
 def make_there(study, quantity, chosen, changes, jobs):
@@ -243,7 +255,7 @@ def prove(study, quantity, proposal, jobs, place):
     value = made.values(artefacts[1], "proposed")[quantity]
     if value is None:
         raise run.Failed(f"{wanted.path}: the proposed settings cannot be run: see what the stage says above")
-    error = value.minus(place.reference).size() / scale_of(wanted, quantity, place.reference)
+    error = difference(wanted, quantity, value, place.reference)
     base = [stage for stage in place.stages if stage.name in proposal.factors]
     return Proof(error, run.cost_of(wanted, made.stages(artefacts[1]), quantity), seconds_by(wanted, base, proposal.factors))
 
@@ -312,10 +324,10 @@ def answer(study, request, text, seconds, jobs, there=(), at=()):
     lacking = [study.plan.settings[number].name for number in study.lacking(quantity)]
     if lacking:
         raise run.Failed(f"{study.plan.path}: the finest value of {', '.join(lacking)} could not be made: errors are not known; see what its stage says above")
-    place = place_of(study, quantity, jobs, there)
+    place = place_of(study, quantity, jobs, there, within)
     if at:
-        print(f"there: errors are expected {place.times:.2g} times as large as in the study", flush=True)
-    best, least = propose(study, quantity, within, seconds, place.times if at else None)
+        print("there, differences over those in the study: " + ", ".join(f"{setting.name} {times:.2g}" for setting, times in zip(study.plan.settings, place.times)), flush=True)
+    best, least = propose(study, quantity, within, seconds, place.times)
     if best is None:
         print("\n".join(["the nearest:", *report(study, quantity, least)]))
         raise run.Failed(f"{study.plan.path}: no settings of this study are within {findings.error_text(study, quantity, within)}"
