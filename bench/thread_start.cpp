@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// parallel_pieces, which starts threads at each call, compared with OpenMP's waiting ones:
-// microseconds of a loop over n doubles, after a pause in which waiting threads fall asleep, and
-// one directly after another.
+// parallel_pieces, whose threads sleep between calls, compared with OpenMP's, which spin for a
+// while: microseconds of a loop over n doubles, after a pause in which waiting threads fall asleep,
+// and one directly after another.
 //   thread_start [repeats]
 #include <omp.h>
 

@@ -4,9 +4,13 @@
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <condition_variable>
 #include <exception>
+#include <mutex>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -16,13 +20,76 @@ namespace {
 
 int chosen_count = 0;
 
+/// Threads that wait for pieces. The caller takes pieces as well, and waits only for those that
+/// others have begun: on a busy machine, where a thread may not run for milliseconds, it does all.
+class Crew {
+ public:
+  static Crew& of_the_process() {
+    static Crew* const crew = new Crew;  // its threads wait until the process ends
+    return *crew;
+  }
+
+  /// Calls run(0) .. run(pieces - 1), which do not throw. Of nested calls, and of several at the
+  /// same time, only the first has help.
+  void work(int64_t pieces, const std::function<void(int64_t)>& run) {
+    if (::getpid() != owner_ || busy_.exchange(true)) {
+      for (int64_t piece = 0; piece < pieces; ++piece) run(piece);
+      return;
+    }
+    std::unique_lock lock(mutex_);
+    grow(pieces - 1);
+    run_ = &run;
+    next_ = 0;
+    pieces_ = pieces;
+    wake_.notify_all();
+    take(lock);
+    done_.wait(lock, [&] { return running_ == 0; });
+    busy_ = false;
+  }
+
+ private:
+  void grow(int64_t threads) {
+    try {
+      for (; size_ < threads; ++size_) std::thread(&Crew::wait, this).detach();
+    } catch (const std::system_error&) {
+      // A limit of threads or of memory: there are less (hard case P14).
+    }
+  }
+  void wait() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      wake_.wait(lock, [&] { return next_ < pieces_; });
+      take(lock);
+      if (running_ == 0) done_.notify_one();
+    }
+  }
+  void take(std::unique_lock<std::mutex>& lock) {
+    while (next_ < pieces_) {
+      const int64_t piece = next_++;
+      ++running_;
+      lock.unlock();
+      (*run_)(piece);
+      lock.lock();
+      --running_;
+    }
+  }
+
+  const pid_t owner_ = ::getpid();
+  std::atomic<bool> busy_{false};
+  std::mutex mutex_;
+  std::condition_variable wake_, done_;
+  const std::function<void(int64_t)>* run_ = nullptr;
+  int64_t pieces_ = 0, next_ = 0, running_ = 0, size_ = 0;
+};
+
 }  // namespace
 
 void set_thread_count(int count) { chosen_count = std::max(0, count); }
 
 int thread_count() {
   if (chosen_count > 0) return chosen_count;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  static const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return cores;
 }
 
 void parallel_pieces(int64_t n, const std::function<void(int64_t, int64_t)>& body) {
@@ -32,24 +99,13 @@ void parallel_pieces(int64_t n, const std::function<void(int64_t, int64_t)>& bod
     return;
   }
   std::vector<std::exception_ptr> failures(static_cast<size_t>(pieces));
-  const auto run = [&](int64_t piece) {
+  Crew::of_the_process().work(pieces, [&](int64_t piece) {
     try {
       body(n * piece / pieces, n * (piece + 1) / pieces);
     } catch (...) {
       failures[static_cast<size_t>(piece)] = std::current_exception();
     }
-  };
-  std::vector<std::thread> workers;
-  workers.reserve(static_cast<size_t>(pieces));
-  int64_t started = 1;
-  try {
-    for (; started < pieces; ++started) workers.emplace_back(run, started);
-  } catch (const std::system_error&) {
-    // A limit of threads or of memory: the others run here (hard case P14).
-  }
-  run(0);  // on this thread: one thread less to start
-  for (; started < pieces; ++started) run(started);
-  for (auto& worker : workers) worker.join();
+  });
   for (const auto& failure : failures) {
     if (failure) std::rethrow_exception(failure);
   }

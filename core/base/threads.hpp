@@ -10,8 +10,10 @@ namespace clatter {
 void set_thread_count(int count);
 int thread_count();
 
-/// Calls body(begin, end) on contiguous pieces of [0, n), one per thread. The pieces depend only on
-/// n and the thread count, so results do too. An exception in any piece is rethrown.
+/// Calls body(begin, end) on contiguous pieces of [0, n), as many as threads. The pieces depend
+/// only on n and the thread count, so results do too; which thread runs a piece, and how many run
+/// at the same time, does not: pieces must not wait for each other. An exception in any piece is
+/// rethrown.
 void parallel_pieces(int64_t n, const std::function<void(int64_t begin, int64_t end)>& body);
 
 /// Calls task(0) .. task(count - 1). A waiting thread takes what the caller has not begun, so short

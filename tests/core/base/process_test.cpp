@@ -3,12 +3,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <csignal>
 
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <numeric>
+#include <set>
 #include <sstream>
+#include <thread>
 
 #include "core/base/command_line.hpp"
 #include "core/base/error.hpp"
@@ -47,6 +52,50 @@ TEST(Threads, AnExceptionInAPieceReachesTheCaller) {
               });
             }),
             "piece");
+  set_thread_count(0);
+}
+
+/// Whether pieces of pieces cover 10 x 10 numbers once each.
+bool nested_pieces_cover() {
+  std::vector<int> visits(100, 0);
+  parallel_pieces(10, [&](int64_t begin, int64_t end) {
+    for (int64_t k = begin; k < end; ++k)
+      parallel_pieces(10, [&](int64_t first, int64_t last) {
+        for (int64_t i = first; i < last; ++i) ++visits[static_cast<size_t>(10 * k + i)];
+      });
+  });
+  return visits == std::vector<int>(100, 1);
+}
+
+TEST(Threads, PiecesOfPiecesOfSeveralThreadsAndInAForkedProcessAreDone) {
+  set_thread_count(4);
+  std::atomic<int> right{0};
+  std::vector<std::thread> callers;
+  for (int caller = 0; caller < 4; ++caller)
+    callers.emplace_back([&] {
+      for (int k = 0; k < 200; ++k) right += nested_pieces_cover() ? 1 : 0;
+    });
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_EQ(right, 800);
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(nested_pieces_cover() ? 0 : 1);
+  int status = -1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  set_thread_count(0);
+}
+
+TEST(Threads, AreMoreThanOneWhereTheyHaveTime) {
+  set_thread_count(2);
+  std::set<std::thread::id> ran;
+  std::mutex mutex;
+  for (int k = 0; k < 500 && ran.size() < 2; ++k)
+    parallel_pieces(2, [&](int64_t, int64_t) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      const std::lock_guard lock(mutex);
+      ran.insert(std::this_thread::get_id());
+    });
+  EXPECT_EQ(ran.size(), 2u);
   set_thread_count(0);
 }
 
