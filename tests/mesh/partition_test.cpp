@@ -122,10 +122,10 @@ TEST(HardM3, TooManyPartsAreRefused) {
 }
 
 TEST(HardM4, MetisThatDiesIsAnErrorHere) {
-  // A graph whose rows point far outside: METIS reads invalid memory, in the child.
+  // A graph whose neighbours are far outside: METIS reads invalid memory, in the child.
   CellNeighbours broken;
-  broken.start = {0, 1000000000, 2000000000};
-  broken.neighbour = {1, 0};
+  broken.start = {0, 1, 2};
+  broken.neighbour = {2000000000, -2000000000};
   const test::PlainFaults plain;
   const std::string said = test::refusal_of<NumericsError>([&] { metis_parts(broken, 2); });
   test::expect_parts(said, {"partition: METIS ended with signal 11"});

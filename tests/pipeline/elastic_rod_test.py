@@ -26,7 +26,7 @@ FILES = {
     "gas.csv": "crank_angle [deg], pressure [bar]\n" + "".join(f"{deg}, 301\n" for deg in range(-360, 361, 10)),
     "slow.run.toml": """
 [engine]
-speed_rpm = 20.0
+speed_rpm = 100.0
 stroke_mm = 130.0
 [rod]
 model = "elastic"
