@@ -108,7 +108,8 @@ double tangent_error(PistonLiner& element, const Eigen::VectorXd& y, double appr
     } while (!same_split && d > 1e-13);
     EXPECT_TRUE(same_split) << "column " << k;
     if (own == 0.0) {  // a patch beside no pad, the pin along which nothing acts
-      EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-12 * largest) << "column " << k;
+      // Differences are rounding of the forces over the step.
+      EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-11 * largest) << "column " << k;
       continue;
     }
     worst = std::max(worst, (difference - tangent.col(k)).cwiseAbs().maxCoeff() /
