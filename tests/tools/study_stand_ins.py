@@ -18,7 +18,7 @@ from clatter_tools.study import run
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 STAGES = ("mesh", "assembly", "modal", "condense", "dynamics", "recover")
 
-# What an artefact was made of, as "h=2.0 n=2 tau=0.2", is kept by its inode; the artefacts of all combinations were written before.
+# What an artefact was made of, lines as "h=2.0", is kept by its inode; the artefacts of all combinations were written before.
 STAND_IN = """#!/bin/bash
 set -e
 inputs=()
@@ -26,7 +26,7 @@ while (( $# )); do case $1 in -o) output=$2; shift 2;; --depfile) shift 2;; -*) 
 declare -A made
 take() { while IFS='= ' read -r key value || [[ $key ]]; do case $key=$value in *=-) ;; h=*|n=*|tau=*|both=*) made[$key]=$value;; esac; done; }
 for file in $([[ $0 != *dynamics ]] || sed -nE 's/^(base|rom) = "(.*)"/\\2/p' *.run.toml) "${inputs[@]}"; do
-  case $file in *.h5) take < <(tr ' ' '\\n' < "$GIVEN/of-$(stat -Lc %i "$file")");; *) take < "$file";; esac
+  case $file in *.h5) take < "$GIVEN/of-$(stat -Lc %i "$file")";; *) take < "$file";; esac
 done
 kind=${output%.h5}; kind=${kind##*.}
 [ $kind = run ] && : ${made[both]:=0.0}
@@ -35,7 +35,7 @@ kind=${output%.h5}; kind=${kind##*.}
 [ "${made[h]}" = 20.0 ] && { echo too coarse >&2; exit 2; }
 of="h=${made[h]} n=${made[n]:--} tau=${made[tau]:--} both=${made[both]:--}"
 cp "$GIVEN/$kind $of" "$output.part"
-echo "$of" > "$GIVEN/of-$(stat -c %i "$output.part")"
+printf '%s\\n' $of > "$GIVEN/of-$(stat -c %i "$output.part")"
 mv "$output.part" "$output"
 echo "$output $LAUNCHED" >> $GIVEN/calls
 """

@@ -124,21 +124,26 @@ class Interaction(StandIns):
     def test_a_proposal_is_proved_in_a_scene_that_the_study_has_not_seen(self):
         study = self.study()
         within = 0.1
-        place = proposal.place_of(study, 0, 2, proposal.elsewhere(study.plan, ["slap.run.toml:more.both=0.0"]), within)
+        place = proposal.place_of(study, 0, 2, proposal.elsewhere(study.plan, ["slap.run.toml:more.both=0.0"]))
         reference = exact(0.5, 0.05, 8) - sum(line.errors[-1].number() for line in study.lines[0].values())
-        # Each setting that matters has the value before the base's: of the modes 1 instead of 2, which here change more than a tenth of what is asked for.
-        neighbours = proposal.those_that_matter(study, 0, within)
-        self.assertEqual([study.variants[one].name for one in neighbours.values()], ["cell size 4 mm", "tolerance 0.4", "modes 1"])
+        # Of each setting the value before the base's is run there: of the modes 1 instead of 2, which here change more than a tenth of what is asked for.
+        self.assertEqual([study.variants[one].name for one in proposal.neighbours(study, 0).values()], ["cell size 4 mm", "tolerance 0.4", "modes 1"])
+        self.assertEqual(proposal.those_that_matter(study, 0, within), [0, 1, 2])
+        best, _ = proposal.propose_there(study, 0, within, math.inf, 2, place)
         times = []
         for changed in ({"h": 4.0}, {"tau": 0.4}, {"n": 1}):
             there, here = (abs(exact(both=both, **changed) / exact(both=both) - 1.0) for both in (0.0, self.both))
             times.append(max(there / here, proposal.LEAST))
-        np.testing.assert_allclose(place.times, times, rtol=1e-9)
-        # Of what changes less nothing is run there: it is taken to change as much as the worst of the others, but not less than here.
-        self.assertEqual([study.variants[one].name for one in proposal.those_that_matter(study, 0, 1e3 * within).values()], ["tolerance 0.4"])
-        rough = proposal.place_of(study, 0, 2, place.changes, 1e3 * within).times
-        np.testing.assert_allclose(rough, [max(times[1], 1.0), times[1], max(times[1], 1.0)], rtol=1e-9)
-        best, _ = proposal.propose(study, 0, within, times=place.times)
+        np.testing.assert_allclose(place.times(study), times, rtol=1e-9)
+        # Along those that are not tried differences are as along the worst of the others, but not smaller.
+        self.assertEqual(proposal.those_that_matter(study, 0, 1e3 * within), [1])
+        place.tried = {1: 0.7}
+        self.assertEqual(place.times(study), [1.0, 0.7, 1.0])
+        place.tried = {1: 3.0}
+        self.assertEqual(place.times(study), [3.0, 3.0, 3.0])
+        # What a proposal changes is tried before it is believed.
+        rough, _ = proposal.propose_there(study, 0, 1e3 * within, math.inf, 2, place)
+        self.assertEqual(set(place.tried), {number for number in range(3) if rough.values[number] != study.variants[0].values[number]} | {1})
         plain, _ = proposal.propose(study, 0, within, times=[1.0] * 3)
         self.assertLess(best.seconds, plain.seconds)  # what acts on both settings is most of their errors in the study, and is off there
         self.assertLessEqual(best.expected, best.most)

@@ -11,10 +11,9 @@ multiplied by their ratio. Settings are chosen by the sum of all magnitudes. Err
 Values with which the model does not state the quantity (a frequency above half the cut-off, bands above the spectra) are no candidates.
 
 --at changes keys of the pipeline: another speed, load or clearance than that of the study. The base is run there, and with it each setting that
-matters at the value before the base's: the differences along that setting are taken to be as many times as large as that of these two runs is, but not
-less than half, as a small one may be an accident. Along settings that matter less they are as many times as large as along the worst of the others, but not smaller.
-All add in squares, as signs may be others there. The seconds of each stage are expected in
-proportion to those of the base. The proof is a run there with the proposed settings against one with everything refined, of which the proposal has seen nothing.
+matters, or that the proposal changes, at the value before the base's: the differences along that setting are taken to be as many times as large as that of
+these two runs is, but not less than half, as a small one may be an accident. Along the others they are as many times as large as along the worst of these,
+but not smaller. All add in squares, as signs may be others there. The seconds of each stage are expected in proportion to those of the base. The proof is a run there with the proposed settings against one with everything refined, of which the proposal has seen nothing.
 Each proof is a row of proofs.csv in the study's folder; --markdown shows them.
 """
 import csv
@@ -172,38 +171,68 @@ def proposal_of(scaled, base, found, signed):
 
 @dataclasses.dataclass
 class Place:
-    """Where proposals are proved: files that differ there ([] in the study's own scene), stages of the base, the reference of the quantity, and differences
-    there over those in the study, along each setting (None in the study's own scene)."""
+    """Where proposals are proved: files that differ there ([] in the study's own scene), stages of the base, its value and the reference of the quantity, and
+    {number of a setting: differences there over those in the study} of the settings that were tried there."""
     changes: list
     stages: list
+    base: Value
     reference: Value
-    times: list
+    tried: dict = dataclasses.field(default_factory=dict)
+
+    def times(self, study):
+        """Along each setting; None in the study's own scene."""
+        worst = max([1.0, *self.tried.values()])
+        return [self.tried.get(number, worst) for number in range(len(study.plan.settings))] if self.changes else None
 
 
-def place_of(study, quantity, jobs, changes=(), within=0.0):
-    """The Place of changes, [((file, path of keys), value)], by runs there of the base, of everything refined and of the settings that matter for an error of
-    `within`, each at another value; Failed where one cannot be made."""
+def place_of(study, quantity, jobs, changes=()):
+    """The Place of changes, [((file, path of keys), value)], by runs there of the base and of everything refined; Failed where one cannot be made."""
     wanted, base = study.plan, study.variants[BASE].values
     known = study.values[quantity][BASE]
     refined = study.budgets[quantity].refined
     limit = convergence.total_reference(None, study.lines[quantity], known, None if refined is None else known.minus(refined))
     if not changes:
-        return Place([], study.stages[BASE], limit, None)
-    neighbours = those_that_matter(study, quantity, within)
-    chosen = [variants.Variant("base", base), variants.Variant("refined", tuple(setting.values[-1] for setting in wanted.settings)),
-              *(study.variants[one] for one in neighbours.values())]
+        return Place([], study.stages[BASE], known, limit)
+    chosen = [variants.Variant("base", base), variants.Variant("refined", tuple(setting.values[-1] for setting in wanted.settings))]
+    stages, (known, reference) = values_there(study, quantity, chosen, changes, jobs)
+    for line in study.lines[quantity].values():
+        reference = reference.minus(line.errors[-1])
+    return Place(list(changes), stages, known, reference)
+
+
+def values_there(study, quantity, chosen, changes, jobs):
+    """(stages of the first, values) of variants with changed files; Failed where one cannot be made."""
     made, artefacts = make_there(study, quantity, chosen, changes, jobs)
     values = [made.values(own)[quantity] for own in artefacts]
     missing = [one.name for one, value in zip(chosen, values) if value is None]
     if missing:
-        raise run.Failed(f"{wanted.path}: --at: the run there of {', '.join(missing)} cannot be made: see what its stage says above")
-    reference = values[1]
-    for line in study.lines[quantity].values():
-        reference = reference.minus(line.errors[-1])
-    known_times = {number: max(LEAST, difference(wanted, quantity, value, values[0]) / difference(wanted, quantity, study.values[quantity][variant], known))
-                   for (number, variant), value in zip(neighbours.items(), values[2:])}
-    others = max(1.0, *known_times.values())
-    return Place(list(changes), made.stages(artefacts[0]), reference, [known_times.get(number, others) for number in range(len(wanted.settings))])
+        raise run.Failed(f"{study.plan.path}: --at: the run there of {', '.join(missing)} cannot be made: see what its stage says above")
+    return made.stages(artefacts[0]), values
+
+
+def try_there(study, quantity, jobs, place, numbers):
+    """Runs settings at a Place, each with the value of its neighbour."""
+    known, found = study.values[quantity][BASE], neighbours(study, quantity)
+    chosen = [study.variants[BASE], *(study.variants[found[number]] for number in numbers)]
+    values = values_there(study, quantity, chosen, place.changes, jobs)[1]
+    for number, value in zip(numbers, values[1:]):
+        here = difference(study.plan, quantity, study.values[quantity][found[number]], known)
+        place.tried[number] = max(LEAST, difference(study.plan, quantity, value, place.base) / here)
+
+
+def propose_there(study, quantity, within, seconds, jobs, place):
+    """As propose(), at a Place: settings that matter are tried there before, and those that the proposal changes."""
+    numbers = those_that_matter(study, quantity, within) if place.changes else []
+    while True:
+        if numbers:
+            try_there(study, quantity, jobs, place, numbers)
+        best, least = propose(study, quantity, within, seconds, place.times(study))
+        if best is None or not place.changes:
+            return best, least
+        numbers = [number for number in neighbours(study, quantity)
+                   if number not in place.tried and best.values[number] != study.variants[BASE].values[number]]
+        if not numbers:
+            return best, least
 
 
 def difference(wanted, quantity, value, base):
@@ -212,19 +241,25 @@ def difference(wanted, quantity, value, base):
     return value.minus(base).size() / scale
 
 
-def those_that_matter(study, quantity, within):
-    """{number of a setting: variant with its value before the base's, or else the one after it}, of the settings along which these differ from the base by at
-    least MATTERS of an error of `within`; of the one with the largest difference if there is none."""
+def neighbours(study, quantity):
+    """{number of a setting: variant with its value before the base's, or else the one after it}, of the settings along which these differ from the base."""
     known, found = study.values[quantity][BASE], {}
     for number, line in study.lines[quantity].items():
         at = line.variants.index(BASE) if BASE in line.variants else len(line.variants)
         order = [*reversed(line.variants[:at]), *line.variants[at + 1:]]
-        if order:
-            found[number] = (order[0], difference(study.plan, quantity, study.values[quantity][order[0]], known))
-    largest = max((size for _, size in found.values()), default=0.0)
-    if largest <= 0.0:
+        if order and study.values[quantity][order[0]].minus(known).size() > 0.0:
+            found[number] = order[0]
+    return found
+
+
+def those_that_matter(study, quantity, within):
+    """Numbers of the settings along which neighbours differ from the base by at least MATTERS of an error of `within`; the one with the largest difference if
+    there is none."""
+    known = study.values[quantity][BASE]
+    sizes = {number: difference(study.plan, quantity, study.values[quantity][variant], known) for number, variant in neighbours(study, quantity).items()}
+    if not sizes:
         raise run.Failed(f"{study.plan.path}: --at: found no setting that changes {study.plan.quantities[quantity].name}, expected one")
-    return {number: variant for number, (variant, size) in found.items() if size >= min(MATTERS * within, largest)}
+    return [number for number, size in sizes.items() if size >= min(MATTERS * within, max(sizes.values()))]
 
 
 def make_there(study, quantity, chosen, changes, jobs):
@@ -324,10 +359,11 @@ def answer(study, request, text, seconds, jobs, there=(), at=()):
     lacking = [study.plan.settings[number].name for number in study.lacking(quantity)]
     if lacking:
         raise run.Failed(f"{study.plan.path}: the finest value of {', '.join(lacking)} could not be made: errors are not known; see what its stage says above")
-    place = place_of(study, quantity, jobs, there, within)
+    place = place_of(study, quantity, jobs, there)
+    best, least = propose_there(study, quantity, within, seconds, jobs, place)
     if at:
-        print("there, differences over those in the study: " + ", ".join(f"{setting.name} {times:.2g}" for setting, times in zip(study.plan.settings, place.times)), flush=True)
-    best, least = propose(study, quantity, within, seconds, place.times)
+        said = ", ".join(f"{study.plan.settings[number].name} {times:.2g}" for number, times in place.tried.items())
+        print(f"there, differences over those in the study: {said}", flush=True)
     if best is None:
         print("\n".join(["the nearest:", *report(study, quantity, least)]))
         raise run.Failed(f"{study.plan.path}: no settings of this study are within {findings.error_text(study, quantity, within)}"
