@@ -128,7 +128,7 @@ class Interaction(StandIns):
         reference = exact(0.5, 0.05, 8) - sum(line.errors[-1].number() for line in study.lines[0].values())
         # Of each setting the value before the base's is run there: of the modes 1 instead of 2, which here change more than a tenth of what is asked for.
         self.assertEqual([study.variants[one].name for one in proposal.neighbours(study, 0).values()], ["cell size 4 mm", "tolerance 0.4", "modes 1"])
-        self.assertEqual(proposal.those_that_matter(study, 0, within), [0, 1, 2])
+        self.assertEqual(proposal.those_that_matter(study, 0, within), list(proposal.neighbours(study, 0).values()))
         best, _ = proposal.propose_there(study, 0, within, math.inf, 2, place)
         times = []
         for changed in ({"h": 4.0}, {"tau": 0.4}, {"n": 1}):
@@ -136,14 +136,21 @@ class Interaction(StandIns):
             times.append(max(there / here, proposal.LEAST))
         np.testing.assert_allclose(place.times(study), times, rtol=1e-9)
         # Along those that are not tried differences are as along the worst of the others, but not smaller.
-        self.assertEqual(proposal.those_that_matter(study, 0, 1e3 * within), [1])
+        self.assertEqual([study.variants[one].name for one in proposal.those_that_matter(study, 0, 1e3 * within)], ["tolerance 0.4"])
         place.tried = {1: 0.7}
         self.assertEqual(place.times(study), [1.0, 0.7, 1.0])
         place.tried = {1: 3.0}
         self.assertEqual(place.times(study), [3.0, 3.0, 3.0])
-        # What a proposal changes is tried before it is believed.
+        # What a proposal has coarser than the base is tried before it is believed, and counts at least as much as it does there.
+        place.sizes = {}
         rough, _ = proposal.propose_there(study, 0, 1e3 * within, math.inf, 2, place)
-        self.assertEqual(set(place.tried), {number for number in range(3) if rough.values[number] != study.variants[0].values[number]} | {1})
+        coarse = {one for number, one in enumerate(rough.variants) if proposal.is_coarser(study, 0, number, one)}
+        self.assertTrue(coarse and coarse <= set(place.sizes))
+        for one in place.sizes:
+            h, tau, n = (value[0] for value in study.variants[one].values)
+            self.assertAlmostEqual(place.sizes[one], study.scale(0) * abs(exact(h, tau, n) / exact() - 1.0), delta=1e-9)
+        jump = proposal.propose(study, 0, 1e3 * within, times=[1.0] * 3, sizes={one: 1e9 for one in coarse})[0]
+        self.assertEqual(coarse & set(jump.variants), set())
         plain, _ = proposal.propose(study, 0, within, times=[1.0] * 3)
         self.assertLess(best.seconds, plain.seconds)  # what acts on both settings is most of their errors in the study, and is off there
         self.assertLessEqual(best.expected, best.most)

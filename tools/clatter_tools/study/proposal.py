@@ -11,9 +11,9 @@ multiplied by their ratio. Settings are chosen by the sum of all magnitudes. Err
 Values with which the model does not state the quantity (a frequency above half the cut-off, bands above the spectra) are no candidates.
 
 --at changes keys of the pipeline: another speed, load or clearance than that of the study. The base is run there, and with it each setting that
-matters, or that the proposal changes, at the value before the base's: the differences along that setting are taken to be as many times as large as that of
-these two runs is, but not less than half, as a small one may be an accident. Along the others they are as many times as large as along the worst of these,
-but not smaller. All add in squares, as signs may be others there. The seconds of each stage are expected in proportion to those of the base. The proof is a run there with the proposed settings against one with everything refined, of which the proposal has seen nothing.
+matters at the value before the base's: the differences along that setting are taken to be as many times as large as that of these two runs is, but not less
+than half, as a small one may be an accident. Along the others they are as many times as large as along the worst of these, but not smaller. What a proposal
+has coarser than the base is run there too before it is believed: a difference is at least that of this run. All add in squares, as signs may be others there. The seconds of each stage are expected in proportion to those of the base. The proof is a run there with the proposed settings against one with everything refined, of which the proposal has seen nothing.
 Each proof is a row of proofs.csv in the study's folder; --markdown shows them.
 """
 import csv
@@ -21,6 +21,8 @@ import dataclasses
 import itertools
 import math
 import tomllib
+
+import numpy as np
 
 from ..artefact import BadArtefact
 from . import convergence, findings, plan, results, run, variants
@@ -35,12 +37,18 @@ LEAST = 0.5     # times the study's differences: smaller ones in another scene m
 
 @dataclasses.dataclass
 class Candidate:
-    """A value of a setting: its difference from the setting's reference, factors of the seconds by artefact, and whether the sign of the difference
-    can be relied on."""
+    """A value of a setting: its difference from the setting's reference, factors of the seconds by artefact, whether the sign of the difference
+    can be relied on, and the variant that was tested with it, or with the next coarser value."""
     value: tuple
     difference: Value
     factors: dict
     signed: bool
+    variant: int
+
+    def at_least(self, size):
+        """With a difference of at least that size."""
+        own = self.difference.size()
+        return self if own >= size else dataclasses.replace(self, difference=Value(np.full(1, size), np.zeros(1)), signed=False)
 
     def worse_than(self, other, scaled):
         """Whether another one has neither a larger error nor any larger factor."""
@@ -51,9 +59,10 @@ class Candidate:
 
 @dataclasses.dataclass
 class Proposal:
-    """values: of all settings; expected: error by the sum of the differences; most: sum of their magnitudes, in the units of errors; seconds;
-    factors: of the seconds of the base's stages, by artefact."""
+    """values: of all settings; variants: tested with them, or with the next coarser ones; expected: error by the sum of the differences; most: sum of their
+    magnitudes, in the units of errors; seconds; factors: of the seconds of the base's stages, by artefact."""
     values: tuple
+    variants: tuple
     expected: float
     most: float
     seconds: float
@@ -67,7 +76,7 @@ def candidates(study, quantity, number):
     matter = {stage.name for stage in study.stages[BASE] if study.plan.quantities[quantity].file in stage.needed_by} & study.affected(number)
     if line is None or not matter:
         zero = study.values[quantity][BASE].minus(study.values[quantity][BASE])
-        return [Candidate(study.variants[BASE].values[number], zero, {}, True)]
+        return [Candidate(study.variants[BASE].values[number], zero, {}, True, BASE)]
     names, found, sizes = study.affected(number), [], []
     differences, steady = convergence.expected(line)
     stated = [k for k, variant in enumerate(line.variants) if not study.values[quantity][variant].beyond]
@@ -75,7 +84,7 @@ def candidates(study, quantity, number):
         variant = line.variants[k]
         factors = {stage.name: max(getattr(stage, study.plan.cost), 1e-9) / max(base[stage.name], 1e-9)
                    for stage in study.stages[variant] if stage.name in names}
-        found.append(Candidate(study.variants[variant].values[number], differences[k], factors, steady))
+        found.append(Candidate(study.variants[variant].values[number], differences[k], factors, steady, variant))
         sizes.append(setting.sizes[setting.values.index(found[-1].value)] if setting.sizes and found[-1].value in setting.values else None)
     return found + (between(found, sizes) if steady and None not in sizes else [])
 
@@ -91,7 +100,7 @@ def between(tested, sizes):
         same = pair[0] * pair[1] > 0.0
         difference = math.copysign(math.sqrt(pair[0] * pair[1]), pair[0]) if same else 0.5 * (pair[0] + pair[1])
         factors = {name: math.sqrt(one.factors.get(name, 1.0) * other.factors.get(name, 1.0)) for name in {*one.factors, *other.factors}}
-        found.append(Candidate(value, Value(one.difference.values * 0.0 + difference, one.difference.at), factors, True))
+        found.append(Candidate(value, Value(one.difference.values * 0.0 + difference, one.difference.at), factors, True, one.variant))
     return found
 
 
@@ -117,16 +126,16 @@ def middle_value(one, other, h, finer):
     return tuple(found)
 
 
-def propose(study, quantity, within, seconds=math.inf, times=None):
+def propose(study, quantity, within, seconds=math.inf, times=None, sizes=None):
     """(the cheapest Proposal whose error is at most `within`, in the units of errors, and whose seconds are at most `seconds`, of those that cost about
     the same the one with the smallest error; None where there is none, the one with the smallest error within the seconds, or of all). `times`: differences
-    along each setting over those of the study, in another scene than the study's."""
+    along each setting over those of the study, in another scene than the study's; `sizes`: of those from the base there, by variant."""
     signed, times = times is None, times or [1.0] * len(study.plan.settings)
     ratio = study.budgets[quantity].closure()
     more = 1.0 / ratio if findings.is_closed(ratio) and ratio < 1.0 else 1.0
     scaled = lambda difference: more * study.scaled(quantity, difference)  # noqa: E731
-    lists = [[dataclasses.replace(one, difference=one.difference.times(times[number])) for one in candidates(study, quantity, number)]
-             for number in range(len(study.plan.settings))]
+    lists = [[dataclasses.replace(one, difference=one.difference.times(times[number])).at_least((sizes or {}).get(one.variant, 0.0))
+              for one in candidates(study, quantity, number)] for number in range(len(study.plan.settings))]
     lists = [[one for one in own if not any(one.worse_than(other, scaled) and not other.worse_than(one, scaled) for other in own)] for own in lists]
     if math.prod(map(len, lists)) > MOST:
         tested = [{value for value in setting.values} for setting in study.plan.settings]
@@ -166,18 +175,20 @@ def proposal_of(scaled, base, found, signed):
             total = total.plus(one.difference)
         else:
             squares += one.difference.size()**2
-    return Proposal(tuple(one.value for one in chosen), scaled(math.hypot(total.size(), math.sqrt(squares))), most, spent, factors_of(base, chosen))
+    return Proposal(tuple(one.value for one in chosen), tuple(one.variant for one in chosen), scaled(math.hypot(total.size(), math.sqrt(squares))), most, spent, factors_of(base, chosen))
 
 
 @dataclasses.dataclass
 class Place:
-    """Where proposals are proved: files that differ there ([] in the study's own scene), stages of the base, its value and the reference of the quantity, and
-    {number of a setting: differences there over those in the study} of the settings that were tried there."""
+    """Where proposals are proved: files that differ there ([] in the study's own scene), stages of the base, its value and the reference of the quantity;
+    tried: {number of a setting: differences there over those in the study} of its neighbour; sizes: {variant: of its difference from the base there, of
+    relative errors the same part of the study's reference as there of the base}."""
     changes: list
     stages: list
     base: Value
     reference: Value
     tried: dict = dataclasses.field(default_factory=dict)
+    sizes: dict = dataclasses.field(default_factory=dict)
 
     def times(self, study):
         """Along each setting; None in the study's own scene."""
@@ -210,29 +221,36 @@ def values_there(study, quantity, chosen, changes, jobs):
     return made.stages(artefacts[0]), values
 
 
-def try_there(study, quantity, jobs, place, numbers):
-    """Runs settings at a Place, each with the value of its neighbour."""
-    known, found = study.values[quantity][BASE], neighbours(study, quantity)
-    chosen = [study.variants[BASE], *(study.variants[found[number]] for number in numbers)]
-    values = values_there(study, quantity, chosen, place.changes, jobs)[1]
-    for number, value in zip(numbers, values[1:]):
-        here = difference(study.plan, quantity, study.values[quantity][found[number]], known)
-        place.tried[number] = max(LEAST, difference(study.plan, quantity, value, place.base) / here)
+def try_there(study, quantity, jobs, place, found):
+    """Runs variants of the study at a Place."""
+    values = values_there(study, quantity, [study.variants[one] for one in [BASE, *found]], place.changes, jobs)[1]
+    for variant, value in zip(found, values[1:]):
+        place.sizes[variant] = study.scale(quantity) * difference(study.plan, quantity, value, place.base)
+    for number, variant in neighbours(study, quantity).items():
+        if variant in found:
+            there, here = (difference(study.plan, quantity, *pair) for pair in ((values[1 + found.index(variant)], place.base),
+                                                                               (study.values[quantity][variant], study.values[quantity][BASE])))
+            place.tried[number] = max(LEAST, there / here)
 
 
 def propose_there(study, quantity, within, seconds, jobs, place):
-    """As propose(), at a Place: settings that matter are tried there before, and those that the proposal changes."""
-    numbers = those_that_matter(study, quantity, within) if place.changes else []
+    """As propose(), at a Place: neighbours that matter are tried there before, and whatever the proposal has coarser than the base."""
+    found = those_that_matter(study, quantity, within) if place.changes else []
     while True:
-        if numbers:
-            try_there(study, quantity, jobs, place, numbers)
-        best, least = propose(study, quantity, within, seconds, place.times(study))
+        if found:
+            try_there(study, quantity, jobs, place, found)
+        best, least = propose(study, quantity, within, seconds, place.times(study), place.sizes)
         if best is None or not place.changes:
             return best, least
-        numbers = [number for number in neighbours(study, quantity)
-                   if number not in place.tried and best.values[number] != study.variants[BASE].values[number]]
-        if not numbers:
+        found = [variant for number, variant in enumerate(best.variants) if variant not in place.sizes and is_coarser(study, quantity, number, variant)]
+        if not found:
             return best, least
+
+
+def is_coarser(study, quantity, number, variant):
+    """Whether a variant of a setting is before the base."""
+    found = study.lines[quantity][number].variants if number in study.lines[quantity] else []
+    return variant != BASE and variant in found and (BASE not in found or found.index(variant) < found.index(BASE))
 
 
 def difference(wanted, quantity, value, base):
@@ -253,13 +271,12 @@ def neighbours(study, quantity):
 
 
 def those_that_matter(study, quantity, within):
-    """Numbers of the settings along which neighbours differ from the base by at least MATTERS of an error of `within`; the one with the largest difference if
-    there is none."""
+    """The neighbours that differ from the base by at least MATTERS of an error of `within`; the one with the largest difference if there is none."""
     known = study.values[quantity][BASE]
-    sizes = {number: difference(study.plan, quantity, study.values[quantity][variant], known) for number, variant in neighbours(study, quantity).items()}
+    sizes = {variant: difference(study.plan, quantity, study.values[quantity][variant], known) for variant in neighbours(study, quantity).values()}
     if not sizes:
         raise run.Failed(f"{study.plan.path}: --at: found no setting that changes {study.plan.quantities[quantity].name}, expected one")
-    return [number for number, size in sizes.items() if size >= min(MATTERS * within, max(sizes.values()))]
+    return [variant for variant, size in sizes.items() if size >= min(MATTERS * within, max(sizes.values()))]
 
 
 def make_there(study, quantity, chosen, changes, jobs):
