@@ -50,7 +50,7 @@ demo: setup-demo build
 	@tools/clatter report samples/truck_diesel
 	@tools/clatter report --html samples/truck_diesel
 
-# Errors and seconds over settings of three samples; an hour at most, taken up where it was interrupted.
+# Errors and seconds over settings of three samples; half an hour, taken up where it was interrupted.
 study: setup-demo build
 	@for sample in beam truck_diesel timing_drive; do $(MAKE) --no-print-directory -C samples/$$sample CLATTER_BIN=$(BIN) study || exit $$?; done
 
