@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parent.parent
 for folder in ("tools", "tests/validate"):
     sys.path.insert(0, str(ROOT / folder))
 import deck_study  # noqa: E402
-from clatter_tools.study import effects, effects_page, findings, markdown, page, proposal, run  # noqa: E402
+from clatter_tools.study import effects, effects_page, findings, markdown, page, proof, run  # noqa: E402
 
 STUDIES = {"slap": "truck_diesel/study.toml", "mesh": "truck_diesel/study_mesh.toml", "drive": "timing_drive/study.toml", "beam": "beam/study.toml"}
 WITH_EFFECTS = ("slap", "drive")
@@ -72,8 +72,8 @@ def main():
         with tempfile.TemporaryDirectory(prefix="clatter-deck-") as scratch:
             budget("deck", deck_study.write(scratch), options.jobs, put)
     if "proofs" in options.only:
-        rows = [[name, *row] for name in STUDIES for row in proposal.read_proofs(run.plan.read(study_of(name)))[1:]]
-        put("study proofs", rows_as_markdown(["study", *proposal.PROOFS], rows))
+        rows = [[name, *row] for name in STUDIES for row in proof.read_proofs(run.plan.read(study_of(name)))[1:]]
+        put("study proofs", rows_as_markdown(["study", *proof.PROOFS], rows))
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import numpy as np
 from study_stand_ins import H, N, SMALL, STUDY, TAU, StandIns, exact, write_given
 
 from clatter_tools.artefact import BadArtefact
-from clatter_tools.study import effect_keys, effects, effects_page, findings, markdown, proposal, run
+from clatter_tools.study import effect_keys, effects, effects_page, findings, markdown, place, proof, proposal, run
 
 
 class Numbers(StandIns):
@@ -73,8 +73,8 @@ class Proposals(StandIns):
             best, _ = proposal.propose(study, 0, within / reference, seconds)
             h, tau, n = (value[0] for value in best.values)
             write_given(self.given, 0.0, [h], [None, n], [None, tau])
-            proof = proposal.prove(study, 0, best, 2, proposal.place_of(study, 0, 2))
-            error, spent = proof.error, proof.seconds
+            proved = proof.prove(study, 0, best, 2, place.place_of(study, 0, within / reference, 2))
+            error, spent = proved.error, proved.seconds
             self.assertAlmostEqual(error, abs(exact(h, tau, n) - reference) / reference, delta=1e-12)
             self.assertLessEqual(error * reference, within)
             self.assertLessEqual(spent, seconds)
@@ -124,31 +124,31 @@ class Interaction(StandIns):
     def test_a_proposal_is_proved_in_a_scene_that_the_study_has_not_seen(self):
         study = self.study()
         within = 0.1
-        place = proposal.place_of(study, 0, 2, proposal.elsewhere(study.plan, ["slap.run.toml:more.both=0.0"]))
+        there = place.place_of(study, 0, within, 2, place.elsewhere(study.plan, ["slap.run.toml:more.both=0.0"]))
         reference = exact(0.5, 0.05, 8) - sum(line.errors[-1].number() for line in study.lines[0].values())
         # Of each setting the value before the base's is run there: of the modes 1 instead of 2, which here change more than a tenth of what is asked for.
-        self.assertEqual([study.variants[one].name for one in proposal.neighbours(study, 0).values()], ["cell size 4 mm", "tolerance 0.4", "modes 1"])
-        self.assertEqual(proposal.those_that_matter(study, 0, within), list(proposal.neighbours(study, 0).values()))
-        best, _ = proposal.propose_there(study, 0, within, math.inf, 2, place)
+        self.assertEqual([study.variants[one].name for one in place.neighbours(study, 0).values()], ["cell size 4 mm", "tolerance 0.4", "modes 1"])
+        self.assertEqual(place.those_that_matter(study, 0, within), list(place.neighbours(study, 0).values()))
+        best, _ = place.propose_there(study, 0, within, math.inf, 2, there)
         times = []
         for changed in ({"h": 4.0}, {"tau": 0.4}, {"n": 1}):
-            there, here = (abs(exact(both=both, **changed) / exact(both=both) - 1.0) for both in (0.0, self.both))
-            times.append(max(there / here, proposal.LEAST))
-        np.testing.assert_allclose(place.times(study), times, rtol=1e-9)
+            elsewhere, here = (abs(exact(both=both, **changed) / exact(both=both) - 1.0) for both in (0.0, self.both))
+            times.append(max(elsewhere / here, place.LEAST))
+        np.testing.assert_allclose(there.times(study), times, rtol=1e-9)
         # Along those that are not tried differences are as along the worst of the others, but not smaller.
-        self.assertEqual([study.variants[one].name for one in proposal.those_that_matter(study, 0, 1e3 * within)], ["tolerance 0.4"])
-        place.tried = {1: 0.7}
-        self.assertEqual(place.times(study), [1.0, 0.7, 1.0])
-        place.tried = {1: 3.0}
-        self.assertEqual(place.times(study), [3.0, 3.0, 3.0])
+        self.assertEqual([study.variants[one].name for one in place.those_that_matter(study, 0, 1e3 * within)], ["tolerance 0.4"])
+        there.tried = {1: 0.7}
+        self.assertEqual(there.times(study), [1.0, 0.7, 1.0])
+        there.tried = {1: 3.0}
+        self.assertEqual(there.times(study), [3.0, 3.0, 3.0])
         # What a proposal has coarser than the base is tried before it is believed, and counts at least as much as it does there.
-        place.sizes = {}
-        rough, _ = proposal.propose_there(study, 0, 1e3 * within, math.inf, 2, place)
-        coarse = {one for number, one in enumerate(rough.variants) if proposal.is_coarser(study, 0, number, one)}
-        self.assertTrue(coarse and coarse <= set(place.sizes))
-        for one in place.sizes:
+        there.sizes = {}
+        rough, _ = place.propose_there(study, 0, 1e3 * within, math.inf, 2, there)
+        coarse = {one for number, one in enumerate(rough.variants) if place.is_coarser(study, 0, number, one)}
+        self.assertTrue(coarse and coarse <= set(there.sizes))
+        for one in there.sizes:
             h, tau, n = (value[0] for value in study.variants[one].values)
-            self.assertAlmostEqual(place.sizes[one], study.scale(0) * abs(exact(h, tau, n) / exact() - 1.0), delta=1e-9)
+            self.assertAlmostEqual(there.sizes[one], study.scale(0) * abs(exact(h, tau, n) / exact() - 1.0), delta=1e-9)
         jump = proposal.propose(study, 0, 1e3 * within, times=[1.0] * 3, sizes={one: 1e9 for one in coarse})[0]
         self.assertEqual(coarse & set(jump.variants), set())
         plain, _ = proposal.propose(study, 0, within, times=[1.0] * 3)
@@ -156,22 +156,22 @@ class Interaction(StandIns):
         self.assertLessEqual(best.expected, best.most)
         h, tau, n = (value[0] for value in best.values)
         write_given(self.given, 0.0, [h], [None, n], [None, tau])
-        proof = proposal.prove(study, 0, best, 2, place)
-        self.assertAlmostEqual(proof.error, abs(exact(h, tau, n) - reference) / reference, delta=1e-12)
+        proved = proof.prove(study, 0, best, 2, there)
+        self.assertAlmostEqual(proved.error, abs(exact(h, tau, n) - reference) / reference, delta=1e-12)
         # The run without the effect is three seconds shorter, the other stages are not.
-        self.assertAlmostEqual(proof.expected, best.seconds - 3.0 * best.factors["slap.run.h5"], delta=1e-12)
+        self.assertAlmostEqual(proved.expected, best.seconds - 3.0 * best.factors["slap.run.h5"], delta=1e-12)
         for text, said in (("slap.run.toml:more.both", "expected a key of a file and its value"), ("more.both=1", "found key more.both, expected a file"),
                            ("slap.run.toml:accuracy.tau=1", "which is a setting of")):
             with self.assertRaisesRegex(BadArtefact, said):
-                proposal.elsewhere(study.plan, [text])
+                place.elsewhere(study.plan, [text])
 
     def test_proofs_are_kept_once_for_each_request_and_scene(self):
         study = self.study()
         row = ["value 1 %", "the study's", "h 2", "1 %, 10 s", "2 %, 10 s", "2.00", "1.00"]
         for last in ("1.00", "1.10"):
-            proposal.keep_proof(study.plan, [*row[:-1], last])
-        proposal.keep_proof(study.plan, [row[0], "elsewhere", *row[2:]])
-        self.assertEqual([one[-1] for one in proposal.read_proofs(study.plan)[1:]], ["1.10", "1.00"])
+            proof.keep_proof(study.plan, [*row[:-1], last])
+        proof.keep_proof(study.plan, [row[0], "elsewhere", *row[2:]])
+        self.assertEqual([one[-1] for one in proof.read_proofs(study.plan)[1:]], ["1.10", "1.00"])
         self.assertEqual(len(markdown.proofs(study.plan)), 4)
 
     def test_an_effect_is_switched_off_and_its_change_and_cost_are_known(self):
@@ -201,7 +201,7 @@ class Interaction(StandIns):
         self.assertEqual(markdown.few_effects(found, ["value"])[0], "| effect | switched | value | its share of the time | advice |")
         # Without a value of one quantity it is kept, without any it could not be run.
         found.switches[0].changes[1] = None
-        self.assertTrue(effects.report(found)[0].endswith("keep, not known with it off: of the part"), effects.report(found)[0])
+        self.assertTrue(effects.report(found)[0].endswith("keep, not all is known with it off"), effects.report(found)[0])
         found.switches[0].changes[0] = None
         self.assertTrue(effects.report(found)[0].endswith("cannot be switched off here: see what its stage said"))
 
@@ -210,8 +210,13 @@ class Interaction(StandIns):
         self.calls()
         with unittest.mock.patch.dict(effect_keys.PLAIN, {"both": [("more.both", 0.0, None)]}):
             effects.make(self.folder / "study.toml", 2)
+            effects.make(self.folder / "study.toml", 2)  # nothing is made again
         made = [line.split(" ")[0] for line in self.calls()]
-        self.assertEqual(sorted(made), sorted(["part.mesh.h5", "part.fe.h5", "part.rom.h5", *2 * ["slap.run.h5", "slap.field.h5"]]))
+        self.assertEqual(sorted(made), sorted(["part.mesh.h5", "part.fe.h5", "part.rom.h5", *3 * ["slap.run.h5", "slap.field.h5"]]))
+        # The third time is the base's: its seconds are those of the run beside the others.
+        shown = self.folder / "study/variants/base-once-more"
+        self.assertEqual({one.name: "once-more" in str(one.readlink()) for one in shown.iterdir() if one.suffix == ".h5"},
+                         {"part.mesh.h5": False, "part.fe.h5": False, "part.rom.h5": False, "slap.run.h5": True, "slap.field.h5": True})
 
 
 class Refused(StandIns):

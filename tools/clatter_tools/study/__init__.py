@@ -45,7 +45,7 @@ is there is then the reference, which is said, --within refuses, and the exit co
 
 pipeline.py asks make, variants.py changes TOML files, store.py makes artefacts, quantities.py reads them, convergence.py has the
 numbers, findings.py the sentences, results.py the file, page.py the page, effects.py (with effect_keys.py and effects_page.py) and
-proposal.py the options --effects and --within, markdown.py the tables of --markdown.
+proposal.py, place.py and proof.py the options --effects and --within, markdown.py the tables of --markdown.
 
 Limits: seconds of stages that ran beside others are longer than on an idle machine (cost = "processor", or -j1); with CLATTER_LAUNCH on other
 machines processor seconds are not known, cost = "seconds" is. CLATTER_FLAGS (threads) is no part of the digests. A finest value that is its own

@@ -5,14 +5,14 @@ import sys
 
 from .. import study as study_package
 from ..artefact import BadArtefact
-from . import effects, findings, markdown, plan, proposal, quantities, results, run
+from . import effects, findings, markdown, place, plan, proof, proposal, quantities, results, run
 
 
 def add_arguments(command):
     """Declares the arguments of `clatter study`."""
     command.formatter_class = argparse.RawDescriptionHelpFormatter
     command.description = study_package.__doc__
-    command.epilog = f"{quantities.__doc__}\n{effects.__doc__}\n{proposal.__doc__}"
+    command.epilog = f"{quantities.__doc__}\n{effects.__doc__}\n{proposal.__doc__}\n{place.__doc__}\n{proof.__doc__}"
     command.add_argument("study", metavar="study.toml", help="names pipeline, settings and quantities, as above")
     command.add_argument("-j", "--jobs", type=int, default=1, help="number of stages that run in parallel")
     command.add_argument("--effects", action="store_true", help="switch each effect of the scenes off or on instead: what it changes, what it costs")
@@ -35,8 +35,8 @@ def write_study(options):
         raise BadArtefact(f"--at: found {options.at[0]} without --within, expected both")
     if options.within is not None or options.at:
         wanted = plan.read(options.study)
-        request = proposal.requested(wanted, options.within)
-        there = proposal.elsewhere(wanted, options.at)
+        request = proof.requested(wanted, options.within)
+        there = place.elsewhere(wanted, options.at)
     if options.effects:
         found = effects.make(options.study, jobs)
         print("\n".join(markdown.effects(found) if options.markdown else effects.report(found)))
@@ -45,7 +45,7 @@ def write_study(options):
     else:
         study = run.make(options.study, jobs)
         if options.within is not None:
-            proposal.answer(study, request, options.within, options.seconds, jobs, there, options.at)
+            proof.answer(study, request, options.within, options.seconds, jobs, there, options.at)
             return
         print("\n".join([*markdown.study(study), "", *markdown.proofs(study.plan)] if options.markdown else findings.report(study)))
         paths = results.write(study)

@@ -9,7 +9,8 @@ cylinders at once; others are named in the study file:
     keys = ["drive.run.toml:chain.chain.over.1.contact.friction", "drive.run.toml:chain.chain.over.4.contact.friction"]   # or key = "..."
     off = 0.0                          # and on = value for an effect that is off; [..] with a value for each key
 
-Quantities that need what an effect switches off (the sound of a block that becomes rigid) are not known without it: it is kept.
+Quantities that need what an effect switches off (the sound of a block that becomes rigid) are not known without it: it is kept. Seconds depend on what else
+runs: the base is made once more beside the others, as far as they differ from it, and its seconds are those of that time.
 """
 import copy
 import csv
@@ -21,7 +22,6 @@ from .. import artefact
 from ..artefact import text
 from . import effect_keys, plan, results, run, toml_text
 from .findings import digits
-from .run import BASE
 
 SAVES = 0.05  # of the seconds: less is no reason to leave an effect out, and within what seconds vary by
 
@@ -112,21 +112,39 @@ def make(path, jobs):
     base = made.add({})
     made.make(["base"], [base], jobs)
     switches = switches_of(wanted, pipeline, states_of(made, base))
-    artefacts = [base] + [made.add(one.tables) for one in switches]
-    made.make(["base", *(re.sub(r"[^\w.+=-]+", "-", f"{one.to}-{one.name}") for one in switches)], artefacts, jobs)
+    artefacts = [made.add(one.tables) for one in switches]
+    timed = once_more(made, base, artefacts)
+    made.make(["base", "base-once-more", *(re.sub(r"[^\w.+=-]+", "-", f"{one.to}-{one.name}") for one in switches)], [base, timed, *artefacts], jobs)
     found = Effects(wanted, made.values(base), switches)
-    before = made.stages(base)
-    for one, own in zip(switches, artefacts[BASE + 1:]):
+    before = made.stages(timed)
+    for one, own in zip(switches, artefacts):
         one.changes = [None if value is None else value.minus(old) for value, old in zip(made.values(own), found.base)]
-        one.saved = saved(wanted, before, made.stages(own))
+        one.saved = saved(wanted, before, made.stages(own), changed_names(base, [own]))
     return found
 
 
-def saved(wanted, before, after):
-    """Share of the seconds that is saved, of the stages that an effect changes; nan where one of them is missing."""
-    base = {stage.name: stage.folder for stage in before}
-    changed = {stage.name for stage in after if base.get(stage.name) != stage.folder}
-    spent = [run.cost_of(wanted, [stage for stage in stages if stage.name in changed]) for stages in (before, after)]
+def changed_names(base, others):
+    """Names of the artefacts in which variants, [Made] each, differ from the base."""
+    known = {one.name: one.folder for target in base for one in [*target.inputs.values(), target]}
+    return {one.name for own in others for target in own for one in [*target.inputs.values(), target] if known.get(one.name) != one.folder}
+
+
+def once_more(made, base, others):
+    """The artefacts of the base, [Made], to be made once more in other folders, as far as one of the others differs from them."""
+    names = changed_names(base, others)
+
+    def copy(one):
+        if one.name not in names:
+            return one
+        found = dataclasses.replace(one, folder=f"{one.folder}-once-more", inputs={name: copy(other) for name, other in one.inputs.items()})
+        return made.store.made.setdefault(found.folder, found)
+
+    return [copy(one) for one in base]
+
+
+def saved(wanted, before, after, names):
+    """Share of the seconds of stages, by name, that is saved; nan where one of them is missing."""
+    spent = [run.cost_of(wanted, [stage for stage in stages if stage.name in names]) for stages in (before, after)]
     return 1.0 - spent[1] / spent[0]
 
 
@@ -144,7 +162,7 @@ def advice(effects, one):
         return f"cannot be switched {one.to} here: see what its stage said"
     matters = any(effects.scaled(k, change.size()) > effects.small(k) for k, change in enumerate(one.changes) if change is not None)
     if missing:
-        return f"{'keep' if one.to == 'off' else 'leave off'}, not known with it {one.to}: {', '.join(missing)}"
+        return f"{'keep' if one.to == 'off' else 'leave off'}, not all is known with it {one.to}"
     if one.to == "on":
         return "switch on" if matters else "leave off"
     if matters:

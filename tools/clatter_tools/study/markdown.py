@@ -3,7 +3,7 @@
 import math
 
 from . import effects as effects_of
-from . import findings, proposal
+from . import findings, proof
 
 
 def table(rows):
@@ -19,7 +19,7 @@ def study(study):
 
 def proofs(plan):
     """The proposals that were proved; [] without one."""
-    rows = proposal.read_proofs(plan)
+    rows = proof.read_proofs(plan)
     return table(rows) if len(rows) > 1 else []
 
 
