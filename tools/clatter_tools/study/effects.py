@@ -23,7 +23,7 @@ from ..artefact import text
 from . import effect_keys, plan, results, run, toml_text
 from .findings import digits
 
-SAVES = 0.05  # of the seconds: less is no reason to leave an effect out, and within what seconds vary by
+SAVES = 0.1  # of the seconds: less is no reason to leave an effect out, and within what seconds vary by
 
 
 @dataclasses.dataclass
