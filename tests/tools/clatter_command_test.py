@@ -14,14 +14,11 @@ import matplotlib.image  # noqa: E402
 import numpy as np  # noqa: E402
 
 import synthetic  # noqa: E402
+from clatter_command import clatter  # noqa: E402
 from clatter_tools import slap  # noqa: E402
 from clatter_tools.plots import raster  # noqa: E402
 
 CLATTER = pathlib.Path(__file__).resolve().parents[2] / "tools/clatter"
-
-
-def clatter(*arguments, folder):
-    return subprocess.run([CLATTER, *map(str, arguments)], cwd=folder, capture_output=True, text=True)
 
 
 class Command(unittest.TestCase):

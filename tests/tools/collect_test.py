@@ -2,7 +2,6 @@
 """`clatter collect`: all runs of a sweep in one file, and orders from it."""
 import os
 import pathlib
-import subprocess
 import tempfile
 import unittest
 
@@ -11,9 +10,9 @@ import numpy as np
 
 import synthetic
 import synthetic_drive
+from clatter_command import clatter
 from clatter_tools import artefact, collect, orders
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
 SPEEDS = (1000, 2000, 3000)
 AT = "analysis/cycle"
 
@@ -48,7 +47,7 @@ class Collect(unittest.TestCase):
             field[f"{AT}/sensors/sensor_liner/spectrum/acceleration_im"][39, 1] = 0.5  # order 20
 
     def run_command(self, *arguments, code=0):
-        done = subprocess.run([SOURCE / "tools/clatter", *map(str, arguments)], cwd=self.folder, capture_output=True, text=True)
+        done = clatter(*arguments, folder=self.folder)
         self.assertEqual(done.returncode, code, done.stderr)
         return done
 

@@ -7,9 +7,9 @@ import tempfile
 import unittest
 
 import numpy as np
+from clatter_command import clatter
 from clatter_tools import artefact, chains
 
-CLATTER = pathlib.Path(__file__).resolve().parents[2] / "tools/clatter"
 DYNAMICS = pathlib.Path(os.environ.get("CLATTER_BIN", "")) / "clatter-dynamics"
 RPM, PITCH, TEETH = 3000.0, 8e-3, 20
 # 60 links around two sprockets, stretched by 0.02 %: the pitch circles' distance is 20 pitches and a little.
@@ -99,7 +99,7 @@ class Run(unittest.TestCase):
                     below = [np.linalg.norm(roots - pin, axis=1).min() for pin in wrapped]
                     self.assertLess(np.abs(np.array(below) - 2.584e-3).max(), 4e-4)
             for command in (("drive", "two.run.h5"), ("report", ".")):
-                done = subprocess.run([CLATTER, *command], cwd=folder, capture_output=True, text=True)
+                done = clatter(*command, folder=folder)
                 self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("chain drive of two, 3000 rpm", done.stdout)
             self.assertEqual({path.name for path in (folder / "two").iterdir()}, {"drive.svg", "loop.svg", "speed.svg", "drive.html"})

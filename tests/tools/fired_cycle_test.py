@@ -2,12 +2,12 @@
 """`clatter fired-cycle`: the pressure table of a fired engine."""
 import math
 import pathlib
-import subprocess
 import tempfile
 import unittest
 
 import numpy as np
 
+from clatter_command import clatter
 from clatter_tools.fired_cycle import Burn, FiredCycle
 from clatter_tools.motored_cycle import DEGREE, MotoredCycle
 
@@ -25,8 +25,7 @@ class FiredCycleTable(unittest.TestCase):
         self.folder = pathlib.Path(scratch.name)
 
     def run_command(self, *arguments, code=0):
-        done = subprocess.run([SOURCE / "tools/clatter", "fired-cycle", *map(str, arguments)], cwd=self.folder,
-                              capture_output=True, text=True)
+        done = clatter("fired-cycle", *arguments, folder=self.folder)
         self.assertEqual(done.returncode, code, done.stderr)
         return done
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The surfaces of skirt and liner that a run's scene gives, and their picture."""
 import pathlib
-import subprocess
 import tempfile
 import unittest
 
@@ -9,10 +8,10 @@ import h5py
 import numpy as np
 
 import synthetic
+from clatter_command import clatter
 from clatter_tools.artefact import BadArtefact, open_artefact
 from clatter_tools.warm_surfaces import Surfaces
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
 CONFIG = """engine.stroke_mm = 120
 engine.pin_offset_mm = 0
 rod.length_mm = 210
@@ -75,7 +74,7 @@ class Gap(unittest.TestCase):
 
     def test_the_picture_is_drawn_and_other_shapes_and_runs_are_refused(self):
         def plot(code):
-            done = subprocess.run([SOURCE / "tools/clatter", "plot", "gap", "a.run.h5", "-o", "g.png"], cwd=self.folder, capture_output=True, text=True)
+            done = clatter("plot", "gap", "a.run.h5", "-o", "g.png", folder=self.folder)
             self.assertEqual(done.returncode, code, done.stderr)
             return done.stderr
 

@@ -3,10 +3,10 @@
 import argparse
 import math
 import pathlib
-import subprocess
 import tempfile
 import unittest
 
+from clatter_command import clatter
 from clatter_tools import motored_cycle
 from clatter_tools.artefact import BadArtefact
 from clatter_tools.motored_cycle import MotoredCycle
@@ -21,8 +21,7 @@ class MotoredCycleTable(unittest.TestCase):
         self.folder = pathlib.Path(scratch.name)
 
     def run_command(self, *arguments, code=0):
-        done = subprocess.run([SOURCE / "tools/clatter", "motored-cycle", *map(str, arguments)], cwd=self.folder,
-                              capture_output=True, text=True)
+        done = clatter("motored-cycle", *arguments, folder=self.folder)
         self.assertEqual(done.returncode, code, done.stderr)
         return done
 

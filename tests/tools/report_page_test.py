@@ -4,7 +4,6 @@ import base64
 import json
 import pathlib
 import re
-import subprocess
 import tempfile
 import unittest
 import zlib
@@ -14,11 +13,11 @@ import numpy as np
 import synthetic
 import synthetic_drive
 import synthetic_page
+from clatter_command import clatter
 from clatter_tools import report_page
 from clatter_tools.report_page import certificates, shapes, skin
 from clatter_tools.report_page.pack import Pack, json_text
 
-CLATTER = pathlib.Path(__file__).resolve().parents[2] / "tools/clatter"
 KINDS = {"f4": "<f4", "u1": "<u1", "i1": "<i1", "u2": "<u2", "i2": "<i2", "u4": "<u4"}
 
 
@@ -43,7 +42,7 @@ class Folder(unittest.TestCase):
         self.folder = pathlib.Path(scratch.name)
 
     def clatter(self, *arguments):
-        return subprocess.run([CLATTER, "report", *map(str, arguments)], cwd=self.folder, capture_output=True, text=True)
+        return clatter("report", *arguments, folder=self.folder)
 
     def page(self):
         """(data, blocks, text) of the page of the folder."""

@@ -2,7 +2,6 @@
 """`clatter sweep --parameters`, and what `clatter slaps` says about its runs."""
 import csv
 import pathlib
-import subprocess
 import tempfile
 import tomllib
 import unittest
@@ -10,10 +9,10 @@ import unittest
 import h5py
 
 import synthetic
+from clatter_command import clatter
 from clatter_tools import collect, parameters, slaps
 from clatter_tools.artefact import BadArtefact
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
 PARAMETERS = """
 [[parameter]]
 name = "pin offset"
@@ -41,7 +40,7 @@ class Study(unittest.TestCase):
         (self.folder / "parameters.toml").write_text(PARAMETERS)
 
     def run_command(self, *arguments, code=0):
-        done = subprocess.run([SOURCE / "tools/clatter", *arguments], cwd=self.folder, capture_output=True, text=True)
+        done = clatter(*arguments, folder=self.folder)
         self.assertEqual(done.returncode, code, done.stderr)
         return done
 

@@ -2,16 +2,15 @@
 """The Stribeck curve: its numbers by hand, its picture, and what it refuses."""
 import contextlib
 import pathlib
-import subprocess
 import tempfile
 import unittest
 
 import numpy as np
 import synthetic
+from clatter_command import clatter
 from clatter_tools.artefact import BadArtefact, open_artefact
 from clatter_tools.plots import stribeck
 
-CLATTER = pathlib.Path(__file__).resolve().parents[2] / "tools/clatter"
 CONFIG = "engine.speed_rpm = 600\nengine.stroke_mm = 100\ncontact.bore_mm = 100\ncontact.viscosity_pa_s = {}\n"
 
 
@@ -45,7 +44,7 @@ class Stribeck(unittest.TestCase):
 
     def test_the_command_draws_runs_of_a_sweep(self):
         files = [self.run_file(f"s{k}", 10.0 ** -k, friction) for k, friction in ((1, 40.0), (2, 5.0), (3, 90.0))]
-        done = subprocess.run([CLATTER, "plot", "stribeck", *files, "-o", "curve.svg"], cwd=self.folder, capture_output=True, text=True)
+        done = clatter("plot", "stribeck", *files, "-o", "curve.svg", folder=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("0.0025", (self.folder / "curve.svg").read_text())  # the minimum, 5 N of 2000 N
 
@@ -54,7 +53,7 @@ class Stribeck(unittest.TestCase):
         with contextlib.closing(open_artefact(law, "run")) as run, self.assertRaisesRegex(BadArtefact, "expected one viscosity"):
             stribeck.point(run)
         for files, said in (([self.run_file("alone")], "at least two"), ([self.run_file("a"), law], "contact.oil.law")):
-            done = subprocess.run([CLATTER, "plot", "stribeck", *files], cwd=self.folder, capture_output=True, text=True)
+            done = clatter("plot", "stribeck", *files, folder=self.folder)
             self.assertEqual(done.returncode, 2)
             self.assertIn(said, done.stderr)
             self.assertEqual(len(done.stderr.strip().splitlines()), 1)

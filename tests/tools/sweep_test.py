@@ -7,6 +7,7 @@ import tempfile
 import tomllib
 import unittest
 
+from clatter_command import clatter
 from clatter_tools import sweep
 from clatter_tools.artefact import BadArtefact
 
@@ -119,7 +120,7 @@ class Command(unittest.TestCase):
         self.assertTrue(all(call.endswith(" yes") for call in made), made)
 
     def test_a_missing_base_is_refused(self):
-        done = subprocess.run([SOURCE / "tools/clatter", "sweep", "no.run.toml", "a=1"], cwd=self.folder, capture_output=True, text=True)
+        done = clatter("sweep", "no.run.toml", "a=1", folder=self.folder)
         self.assertEqual((done.returncode, done.stderr),
                          (2, "clatter: error: no.run.toml: no such file, expected a scene, name.run.toml\n"))
 
