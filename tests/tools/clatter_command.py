@@ -33,9 +33,11 @@ def clatter(*arguments, folder, environment=None):
             except BaseException:  # as Python does at its end: the test sees code 1 and the trace
                 traceback.print_exc()
             finally:
-                sys.stdout.flush()
-                sys.stderr.flush()
-                os._exit(code or 0)
+                try:
+                    sys.stdout.flush()
+                    sys.stderr.flush()
+                finally:  # whatever happens, the child does not go on as a second test
+                    os._exit(code or 0)
         code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
         texts = []
         for file in (output, errors):
