@@ -4,7 +4,10 @@
 
 #include <cmath>
 #include <cstdio>
+#include <memory>
+#include <vector>
 
+#include "dynamics/integrate/tableau.hpp"
 #include "piston_scene.hpp"
 
 namespace clatter::film {
