@@ -133,13 +133,13 @@ def once_more(made, base, others):
     """The artefacts of the base, [Made], to be made once more in other folders, as far as one of the others differs from them."""
     names = changed_names(base, others)
 
-    def copy(one):
+    def again(one):
         if one.name not in names:
             return one
-        found = dataclasses.replace(one, folder=f"{one.folder}-once-more", inputs={name: copy(other) for name, other in one.inputs.items()})
+        found = dataclasses.replace(one, folder=f"{one.folder}-once-more", inputs={name: again(other) for name, other in one.inputs.items()})
         return made.store.made.setdefault(found.folder, found)
 
-    return [copy(one) for one in base]
+    return [again(one) for one in base]
 
 
 def saved(wanted, before, after, names):
