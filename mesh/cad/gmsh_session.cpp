@@ -93,14 +93,20 @@ void set_sizes(const SizeSettings& settings) {
   gmsh::model::mesh::removeSizeCallback();
   set_gradations(settings);
   if (settings.face_sizes.empty() && settings.spots.empty()) return;
-  gmsh::model::mesh::setSizeCallback([settings, curves = curve_sizes(settings.face_sizes)](
-                                         int dim, int tag, double x, double y, double z) {
-    double size = spot_size(settings.spots, settings.size, {x, y, z});
+  const auto local_size = [settings, curves = curve_sizes(settings.face_sizes)](
+                              int dim, int tag, const Eigen::Vector3d& x) {
+    const double size = spot_size(settings.spots, settings.size, x);
     if (dim != 1 && dim != 2) return size;
     const auto& sizes = dim == 2 ? settings.face_sizes : curves;
     const auto found = sizes.find(tag);
     return found == sizes.end() ? size : std::min(size, found->second);
-  });
+  };
+  // Gmsh 4.8 takes the smaller of its own size and the one returned; since 4.9 it passes its own as
+  // a sixth argument, which the one returned replaces.
+  gmsh::model::mesh::setSizeCallback(
+      [local_size](int dim, int tag, double x, double y, double z, auto... own_size) {
+        return std::min({local_size(dim, tag, {x, y, z}), own_size...});
+      });
 }
 
 // Gmsh's node tags -> rows; only nodes of cells are kept, in ascending order of their tags.
