@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# clatter from a fresh Debian 12: `make demo` and `make check` install what is missing, build, run.
+# clatter from a fresh Debian 12 or 13: `make demo` and `make check` install what is missing, build, run.
 #   make build      the six executables          make install   PREFIX=/usr/local DESTDIR=
 #   make demo       samples/truck_diesel         make validate  the longer comparisons as well
 #   make check      every test but the long ones     make sanitize  the same with ASan and UBSan
