@@ -11,7 +11,8 @@ each scene with the parts of this one, with all parts of the other one, and with
   bore, skirt     shapes of the warm and bolted parts, which the film's gap starts from
 
 Differences are from this release's own run. The last column repeats the other release's run with this one's programs from the same parts: what
-compilers and libraries change. Two minutes a scene.
+compilers and libraries change. Three minutes a scene. A second table compares the blocks: elastic frequencies, and the static compliance of each
+contact patch of the liner, both of the free block.
 """
 import argparse
 import shutil
@@ -21,6 +22,8 @@ import tempfile
 from pathlib import Path
 
 import h5py
+import numpy as np
+import scipy.linalg
 
 from page import markdown, write
 
@@ -32,6 +35,7 @@ from clatter_tools import fields, levels, slap  # noqa: E402
 PARTS = {"block": ["block.rom.h5", "block.sound.h5"], "piston": ["piston.rom.h5"], "bore": ["liner_4.shape.h5"], "skirt": ["skirt.shape.h5"]}
 SETTINGS = ["*.run.toml", "*.csv", "field.toml"]
 AT = levels.AT
+TO_HZ = 3000.0  # up to which the sample's frequencies hold
 
 
 def numbers(field):
@@ -74,6 +78,24 @@ def row(scene, binaries, other):
     return cells
 
 
+def elastic(rom):
+    """Elastic frequencies of the free block [Hz], and the static compliance of each contact patch by its elastic modes [m/N]."""
+    with h5py.File(rom) as file:
+        eigenvalues, shapes = scipy.linalg.eigh(file["K_rr"][()], file["M_rr"][()])
+        rows = shapes[file["sets/liner_4/dofs"][()], 6:]
+    return np.sqrt(eigenvalues[6:]) / (2 * np.pi), (rows**2 / eigenvalues[6:]).sum(axis=1)
+
+
+def blocks(other):
+    (hz, patches), (other_hz, other_patches) = (elastic(folder / "block.rom.h5") for folder in (SAMPLE, other))
+    low = hz < TO_HZ
+    ratio = other_patches / patches
+    return markdown(["free block", "this release and the other"],
+                    [[f"{low.sum()} elastic frequencies below {TO_HZ:g} Hz", f"differ by at most {abs(other_hz[low] / hz[low] - 1).max():.2%}"],
+                     [f"static compliance of {len(ratio)} contact patches",
+                      f"mean {ratio.mean() - 1:+.1%}, standard deviation {ratio.std():.0%}, {ratio.min() - 1:+.0%} to {ratio.max() - 1:+.0%}"]])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("other", type=Path, help="samples/truck_diesel of the other release, with its results")
@@ -89,7 +111,7 @@ def main():
     for scene in options.scenes:
         rows.append(row(scene, options.bin.resolve(), options.other.resolve()))
         print(" | ".join(rows[-1]), flush=True)
-    lines = markdown(head, rows)
+    lines = [*markdown(head, rows), "", *blocks(options.other)]
     print("\n".join(lines))
     if options.write:
         write("releases", lines)
