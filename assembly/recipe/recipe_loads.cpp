@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "assembly/recipe/recipe_reader.hpp"
-#include "assembly/recipe/temperature_table.hpp"
+#include "core/base/log.hpp"
+#include "core/base/units.hpp"
 
 namespace clatter::assembly {
 
@@ -65,6 +67,32 @@ Eigen::VectorXd RecipeReader::rise_of_regions(const Config& table) const {
   return sum.cwiseQuotient(regions);
 }
 
+/// The table's temperatures at the nodes; says how far the nodes are from its points, and how far
+/// the points are from linear fits. A table that is farther from the part than the part is large is
+/// refused.
+Eigen::VectorXd RecipeReader::values_of_table(const Config& table,
+                                              const std::filesystem::path& path,
+                                              const TemperatureTable& points) const {
+  constexpr double kCoarse = 0.05;  // of the table's range: an error of 5 % of the expansion
+  TableValues found = temperatures_at(points, mesh_.nodes);
+  const double size = (mesh_.nodes.colwise().maxCoeff() - mesh_.nodes.colwise().minCoeff()).norm();
+  if (found.farthest > size)
+    table.fail("table",
+               fmt::format("a node lies {:.3g} m from the nearest point of {}, farther than the "
+                           "part is large, {:.3g} m: are its positions in another length_unit?",
+                           found.farthest, path.filename().string(), size));
+  const double range = points.temperature.maxCoeff() - points.temperature.minCoeff();
+  const std::string text = fmt::format(
+      "{}: nodes are at most {:.3g} mm from a point; linear fits to the points leave at most "
+      "{:.2g} K of {:.4g} K",
+      path.filename().string(), found.farthest / kMilli, found.residual, range);
+  if (found.residual > kCoarse * range)
+    warn(text + ": the table is coarse for its field, give more points there");
+  else
+    say(text);
+  return std::move(found.temperature);
+}
+
 /// A rise everywhere or by regions, or temperatures above a reference: of a field of the mesh, a
 /// [[heat]], or a table.
 void RecipeReader::temperature_load(const Config& table, LoadSpec& spec, Recipe& recipe) const {
@@ -96,7 +124,7 @@ void RecipeReader::temperature_load(const Config& table, LoadSpec& spec, Recipe&
     const std::filesystem::path path = table.path("table");
     recipe.files.push_back(path);
     const TemperatureTable points = read_temperature_table(path, metre_);
-    spec.rise = temperatures_at(points, mesh_.nodes).array() - reference();
+    spec.rise = values_of_table(table, path, points).array() - reference();
     spec.unit = table.text_or("unit", "1");
   } else if (source == "field") {
     spec.field = field(table, 1);

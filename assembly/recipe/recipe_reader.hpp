@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "assembly/recipe/recipe.hpp"
+#include "assembly/recipe/temperature_table.hpp"
 
 namespace clatter::assembly {
 
@@ -71,6 +72,8 @@ class RecipeReader {
   void force_load(const Config& table, LoadSpec& spec) const;
   void temperature_load(const Config& table, LoadSpec& spec, Recipe& recipe) const;
   Eigen::VectorXd rise_of_regions(const Config& table) const;
+  Eigen::VectorXd values_of_table(const Config& table, const std::filesystem::path& path,
+                                  const TemperatureTable& points) const;
   void centrifugal_load(const Config& table, LoadSpec& spec) const;
   void displacement_load(const Config& table, LoadSpec& spec) const;
   std::string field(const Config& table, Eigen::Index columns) const;

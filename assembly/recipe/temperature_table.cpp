@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -17,40 +19,100 @@ namespace {
 
 constexpr Eigen::Index kNeighbours = 8;  // twice the coefficients of a linear function
 constexpr double kOnPoint = 1e-9;        // of the distance to the farthest neighbour
-constexpr double kFlat = 1e-6;           // least singular value, relative: below, points are in one
-                                         // plane, line or position
+constexpr double kFlat = 1e-6;           // least singular value, relative
+constexpr double kBeyond = 3.0;  // a fit is used up to three times as far as its points reach
 
-/// The value at `x` of the linear fit to the points in `near`, ascending by distance.
-double fit_at(const TemperatureTable& table, const std::vector<Eigen::Index>& near,
-              const Eigen::RowVector3d& x) {
-  const auto m = static_cast<Eigen::Index>(near.size());
+using Neighbours = std::vector<Eigen::Index>;
+
+/// Points of the table by their distance from a node.
+class ByDistance {
+ public:
+  ByDistance(const TemperatureTable& table, const Eigen::RowVector3d& x)
+      : distance_((table.points.rowwise() - x).rowwise().squaredNorm()),
+        all_(static_cast<size_t>(table.points.rows())) {
+    std::iota(all_.begin(), all_.end(), 0);
+  }
+  Eigen::Index count() const { return distance_.size(); }
+  /// The nearest `count`, ascending.
+  Neighbours nearest(Eigen::Index count) {
+    std::partial_sort(
+        all_.begin(), all_.begin() + count, all_.end(), [&](Eigen::Index i, Eigen::Index j) {
+          return distance_(i) < distance_(j) || (distance_(i) == distance_(j) && i < j);
+        });
+    return {all_.begin(), all_.begin() + count};
+  }
+
+ private:
+  Eigen::VectorXd distance_;
+  Neighbours all_;
+};
+
+/// Farthest that points lie from `centre` along `direction`, to either side.
+double reach_along(const RowMatrix& points, const Eigen::RowVector3d& centre,
+                   const Eigen::Vector3d& direction) {
+  return ((points.rowwise() - centre) * direction).cwiseAbs().maxCoeff();
+}
+
+/// Points that a node's value is fitted to, and the directions along which the fit varies.
+struct Support {
+  Neighbours near;
+  Eigen::Matrix3Xd directions;
+};
+
+/// The nearest points, more where the node lies farther across them than they reach, as off a plane
+/// that holds them all. A direction in which not even the entire table reaches is left out.
+Support support_at(const TemperatureTable& table, const Eigen::RowVector3d& x) {
+  ByDistance order(table, x);
+  for (Eigen::Index count = std::min(kNeighbours, order.count());;
+       count = std::min(2 * count, order.count())) {
+    Support found{order.nearest(count), {3, 0}};
+    const RowMatrix points = table.points(found.near, Eigen::all);
+    const Eigen::RowVector3d centre = points.colwise().mean();
+    const RowMatrix from_centre = points.rowwise() - centre;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(from_centre.transpose() *
+                                                              from_centre);
+    bool more = false;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d direction = axes.eigenvectors().col(axis);
+      const double needed = std::abs((x - centre) * direction) / kBeyond;
+      if (needed <= reach_along(points, centre, direction)) {
+        found.directions.conservativeResize(3, found.directions.cols() + 1);
+        found.directions.rightCols<1>() = direction;
+      } else {
+        more = more || needed <= reach_along(table.points, centre, direction);
+      }
+    }
+    if (!more || count == order.count()) return found;
+  }
+}
+
+struct Value {
+  double temperature, residual;
+};
+
+/// The value at `x` of the linear fit, and the weighted root mean square of what it leaves.
+Value fit_at(const TemperatureTable& table, const Support& support, const Eigen::RowVector3d& x) {
+  const Neighbours& near = support.near;
   const double reach = (table.points.row(near.back()) - x).norm();
   if (!((table.points.row(near[0]) - x).norm() > kOnPoint * reach))
-    return table.temperature(near[0]);
+    return {table.temperature(near[0]), 0.0};
+  const RowMatrix points = table.points(near, Eigen::all);
+  const Eigen::VectorXd values = table.temperature(near);
+  Eigen::VectorXd weight = (points.rowwise() - x).rowwise().squaredNorm().cwiseInverse();
+  weight /= weight.sum();
   // About the weighted mean the constant and the slopes separate.
-  Eigen::VectorXd weight(m);
-  Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
-  double mean = 0.0;
-  for (Eigen::Index k = 0; k < m; ++k) {
-    const Eigen::Index point = near[static_cast<size_t>(k)];
-    weight(k) = 1.0 / (table.points.row(point) - x).squaredNorm();
-    centre += weight(k) * table.points.row(point);
-    mean += weight(k) * table.temperature(point);
-  }
-  centre /= weight.sum();
-  mean /= weight.sum();
-  Eigen::MatrixXd A(m, 3);
-  Eigen::VectorXd b(m);
-  for (Eigen::Index k = 0; k < m; ++k) {
-    const Eigen::Index point = near[static_cast<size_t>(k)];
-    const double root = std::sqrt(weight(k));
-    A.row(k) = root * (table.points.row(point) - centre);
-    b(k) = root * (table.temperature(point) - mean);
-  }
+  const Eigen::RowVector3d centre = weight.transpose() * points;
+  const double mean = weight.dot(values);
+  const Eigen::VectorXd root = weight.cwiseSqrt();
+  const Eigen::MatrixXd A = root.asDiagonal() * (points.rowwise() - centre) * support.directions;
+  const Eigen::VectorXd b = root.cwiseProduct((values.array() - mean).matrix());
+  if (A.cols() == 0) return {mean, b.norm()};
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fit;
   fit.setThreshold(kFlat);
   fit.compute(A);
-  return mean + (x - centre).dot(fit.solve(b).transpose());
+  const Eigen::VectorXd slope = fit.solve(b);
+  return {mean + ((x - centre) * support.directions).dot(slope.transpose()),
+          (A * slope - b).norm()};
 }
 
 }  // namespace
@@ -79,24 +141,22 @@ TemperatureTable read_temperature_table(const std::filesystem::path& path, doubl
   return {metre * all.leftCols(3), all.col(3).array() + kZeroCelsius};
 }
 
-Eigen::VectorXd temperatures_at(const TemperatureTable& table, const RowMatrix& nodes) {
-  const Eigen::Index m = std::min(kNeighbours, table.points.rows());
-  Eigen::VectorXd out(nodes.rows());
+TableValues temperatures_at(const TemperatureTable& table, const RowMatrix& nodes) {
+  TableValues out{Eigen::VectorXd(nodes.rows()), 0.0, 0.0};
+  Eigen::VectorXd distance(nodes.rows()), residual(nodes.rows());
   parallel_pieces(nodes.rows(), [&](int64_t begin, int64_t end) {
-    std::vector<Eigen::Index> near(static_cast<size_t>(table.points.rows()));
     for (Eigen::Index a = begin; a < end; ++a) {
       const Eigen::RowVector3d x = nodes.row(a);
-      const Eigen::VectorXd distance = (table.points.rowwise() - x).rowwise().squaredNorm();
-      near.resize(static_cast<size_t>(table.points.rows()));
-      std::iota(near.begin(), near.end(), 0);
-      std::partial_sort(near.begin(), near.begin() + m, near.end(),
-                        [&](Eigen::Index i, Eigen::Index j) {
-                          return distance(i) < distance(j) || (distance(i) == distance(j) && i < j);
-                        });
-      near.resize(static_cast<size_t>(m));
-      out(a) = fit_at(table, near, x);
+      const Support support = support_at(table, x);
+      const Value value = fit_at(table, support, x);
+      out.temperature(a) = value.temperature;
+      residual(a) = value.residual;
+      distance(a) = (table.points.row(support.near[0]) - x).norm();
     }
   });
+  if (nodes.rows() == 0) return out;
+  out.farthest = distance.maxCoeff();
+  out.residual = residual.maxCoeff();
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -123,15 +124,49 @@ TEST(TemperatureTable, LinearFieldsAreInterpolatedExactly) {
   RowMatrix nodes(50, 3);
   for (double& x : nodes.reshaped()) x = unit(random);
   const Eigen::VectorXd exact = (nodes * slope.transpose()).array() + 300.0;
-  EXPECT_LT((temperatures_at(table, nodes) - exact).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((temperatures_at(table, nodes).temperature - exact).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT(temperatures_at(table, nodes).residual, 1e-9);
   // Points in a plane: the field of the plane, constant across it.
   table.points.col(2).setZero();
   table.temperature = (table.points * slope.transpose()).array() + 300.0;
   const Eigen::VectorXd flat = (nodes.leftCols(2) * slope.head<2>().transpose()).array() + 300.0;
-  EXPECT_LT((temperatures_at(table, nodes) - flat).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_LT((temperatures_at(table, nodes).temperature - flat).cwiseAbs().maxCoeff(), 1e-8);
   // One point: its temperature everywhere.
   const TemperatureTable one{RowMatrix::Zero(1, 3), Eigen::VectorXd::Constant(1, 333.0)};
-  EXPECT_LT((temperatures_at(one, nodes).array() - 333.0).abs().maxCoeff(), 1e-12);
+  EXPECT_LT((temperatures_at(one, nodes).temperature.array() - 333.0).abs().maxCoeff(), 1e-12);
+}
+
+// The eight nearest points lie in one plane wherever planes are farther apart than points in them.
+TEST(TemperatureTable, GradientsAcrossPlanesOfPointsAreExact) {
+  TemperatureTable table{RowMatrix(13 * 17 * 10, 3), Eigen::VectorXd(13 * 17 * 10)};
+  Eigen::Index k = 0;
+  for (int plane = 0; plane < 13; ++plane)
+    for (int i = 0; i < 17; ++i)
+      for (int j = 0; j < 10; ++j) table.points.row(k++) << 2.5 * i, 4.4 * j, 10.0 * plane;
+  table.temperature = (table.points.col(2) * (100.0 / 120.0)).array() + 300.0;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  RowMatrix nodes(60, 3);
+  for (Eigen::Index a = 0; a < nodes.rows(); ++a)
+    nodes.row(a) << 40.0 * unit(random), 39.6 * unit(random), -2.0 + 124.0 * unit(random);
+  const Eigen::VectorXd exact = (nodes.col(2) * (100.0 / 120.0)).array() + 300.0;
+  const TableValues found = temperatures_at(table, nodes);
+  EXPECT_LT((found.temperature - exact).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_GT(found.farthest, 4.0);
+  EXPECT_LT(found.farthest, std::hypot(1.25, 2.2, 5.0));
+}
+
+TEST_F(TemperatureFile, ThatIsFarFromThePartIsRefused) {
+  const mesh::Mesh mesh = wall_of(CellType::kTet10);
+  write("x,y,z,temperature_c\n0,0,100,20\n1,0,100,30\n");
+  test::expect_parts(
+      test::refusal_of([&] {
+        build_all(mesh, kIron +
+                            "[[load]]\nname = \"t\"\nkind = \"temperature\"\n"
+                            "table = \"" +
+                            path_.string() + "\"\n");
+      }),
+      {"load", "table: a node lies ", "farther than the part is large", "another length_unit?"});
 }
 
 }  // namespace
