@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The role of each keyword.
+// The role of each keyword. `clatter-mesh cards` prints these tables.
+#include <span>
 #include <string_view>
 
 namespace clatter::mesh::deck::abaqus {
@@ -24,7 +25,18 @@ enum class Role {
   kProcedure,  // *DYNAMIC: a step that is skipped after a linear one, else refused by name
 };
 
+struct KeywordRole {
+  std::string_view name;  // in capitals with single blanks, without star: "SOLID SECTION"
+  Role role;
+  std::string_view meaning;  // what it becomes, or why it is refused or passed over
+};
+
 /// The role of a keyword by its folded name without star ("SOLIDSECTION").
 Role role_of(std::string_view key);
+/// Why a keyword is refused; empty where the reason is that nobody reads it.
+std::string_view why_refused(std::string_view key);
+
+/// All that are not refused, and those that are for a known reason (kUnknown); by role.
+std::span<const KeywordRole> all_roles();
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -140,10 +140,7 @@ class Parser {
     switch (role) {
       case Role::kUnknown:
       case Role::kProcedure:
-        refusals_.add(
-            fmt::format("{}: keyword {} is not supported; ignore = [\"{}\"] skips it "
-                        "with its data lines",
-                        source_.where(keyword.origin), keyword.name, keyword.name));
+        refuse(keyword);
         return skip_data();
       case Role::kHarmless:
       case Role::kMaterialIdle:
@@ -172,6 +169,14 @@ class Parser {
         if (keyword.key == "STATIC" || keyword.key == "FREQUENCY") ++linear_steps_;
         return read_card();
     }
+  }
+
+  void refuse(const Keyword& keyword) {
+    const std::string_view why = why_refused(keyword.key);
+    refusals_.add(fmt::format(
+        "{}: keyword {} is not supported{}; ignore = [\"{}\"] skips it with its data lines",
+        source_.where(keyword.origin), keyword.name, why.empty() ? "" : fmt::format(" ({})", why),
+        keyword.name));
   }
 
   // Drops the open step and those that follow from it.

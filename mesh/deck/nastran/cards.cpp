@@ -7,41 +7,98 @@
 namespace clatter::mesh::deck::nastran {
 namespace {
 
-// Sorted by name. Harmless ones control solvers, output or plots and do not change the model.
-constexpr std::array kRoles = {Role{"ASET", read_aset, 8},      Role{"ASET1", read_aset1, 0},
-                               Role{"BSET", read_aset, 8},      Role{"BSET1", read_aset1, 0},
-                               Role{"CELAS1", read_celas1, 8},  Role{"CELAS2", read_celas2, 8},
-                               Role{"CHEXA", read_cell, 24},    Role{"CONM2", read_conm2, 16},
-                               Role{"CORD1C", read_cord1, 8},   Role{"CORD1R", read_cord1, 8},
-                               Role{"CORD1S", read_cord1, 8},   Role{"CORD2C", read_cord2, 16},
-                               Role{"CORD2R", read_cord2, 16},  Role{"CORD2S", read_cord2, 16},
-                               Role{"CPENTA", read_cell, 24},   Role{"CPYRA", read_cell, 16},
-                               Role{"CPYRAM", read_cell, 16},   Role{"CTETRA", read_cell, 16},
-                               Role{"ECHOOFF", nullptr, 0},     Role{"ECHOON", nullptr, 0},
-                               Role{"EIGR", read_eigr, 16},     Role{"EIGRL", read_eigrl, 0},
-                               Role{"FORCE", read_force, 8},    Role{"GRAV", read_grav, 8},
-                               Role{"GRDSET", read_grdset, 8},  Role{"GRID", read_grid, 8},
-                               Role{"LOAD", read_load, 0},      Role{"MAT1", read_mat1, 16},
-                               Role{"MAT9", read_mat9, 32},     Role{"MOMENT", read_force, 8},
-                               Role{"MPC", read_mpc, 0},        Role{"MPCADD", read_mpcadd, 0},
-                               Role{"PARAM", nullptr, 8},       Role{"PELAS", read_pelas, 8},
-                               Role{"PLOAD4", read_pload4, 16}, Role{"PLOTEL", nullptr, 8},
-                               Role{"PSOLID", read_psolid, 8},  Role{"RBE2", read_rbe2, 0},
-                               Role{"RBE3", read_rbe3, 0},      Role{"RFORCE", read_rforce, 24},
-                               Role{"SET1", read_set1, 0},      Role{"SPC", read_spc, 8},
-                               Role{"SPC1", read_spc1, 0},      Role{"SPCADD", read_spcadd, 0},
-                               Role{"TEMP", read_temp, 8},      Role{"TEMPD", read_tempd, 8}};
+constexpr const char* kRetained = "boundary DoFs of a condensation";
+constexpr const char* kSystem = "coordinate system";
+constexpr const char* kCell = "cells, with any mid-side nodes or none";
+constexpr const char* kEcho = "printing";
 
-static_assert(std::is_sorted(kRoles.begin(), kRoles.end(),
-                             [](const Role& a, const Role& b) { return a.name < b.name; }));
+// Sorted by name.
+constexpr std::array kRoles = {
+    Role{"ASET", read_aset, 8, kRetained},
+    Role{"ASET1", read_aset1, 0, kRetained},
+    Role{"BSET", read_aset, 8, kRetained},
+    Role{"BSET1", read_aset1, 0, kRetained},
+    Role{"CELAS1", read_celas1, 8, "spring"},
+    Role{"CELAS2", read_celas2, 8, "spring"},
+    Role{"CHEXA", read_cell, 24, kCell},
+    Role{"CONM2", read_conm2, 16, "mass with inertia, at an offset on points"},
+    Role{"CORD1C", read_cord1, 8, kSystem},
+    Role{"CORD1R", read_cord1, 8, kSystem},
+    Role{"CORD1S", read_cord1, 8, kSystem},
+    Role{"CORD2C", read_cord2, 16, kSystem},
+    Role{"CORD2R", read_cord2, 16, kSystem},
+    Role{"CORD2S", read_cord2, 16, kSystem},
+    Role{"CPENTA", read_cell, 24, kCell},
+    Role{"CPYRA", read_cell, 16, kCell},
+    Role{"CPYRAM", read_cell, 16, kCell},
+    Role{"CTETRA", read_cell, 16, kCell},
+    Role{"ECHOOFF", nullptr, 0, kEcho},
+    Role{"ECHOON", nullptr, 0, kEcho},
+    Role{"EIGR", read_eigr, 16, "number of modes of a step"},
+    Role{"EIGRL", read_eigrl, 0, "number of modes of a step"},
+    Role{"FORCE", read_force, 8, "force"},
+    Role{"GRAV", read_grav, 8, "acceleration"},
+    Role{"GRDSET", read_grdset, 8, "systems and supports that a GRID leaves blank"},
+    Role{"GRID", read_grid, 8, "node, or point where a coupling or mass names it"},
+    Role{"LOAD", read_load, 0, "sum of load sets"},
+    Role{"MAT1", read_mat1, 16, "isotropic material; damping and stress limits are not read"},
+    Role{"MAT9", read_mat9, 32, "anisotropic material"},
+    Role{"MOMENT", read_force, 8, "moment"},
+    Role{"MPC", read_mpc, 0, "equation"},
+    Role{"MPCADD", read_mpcadd, 0, "sum of sets of equations"},
+    Role{"PARAM", nullptr, 8, "WTMASS scales densities and masses; others are passed over"},
+    Role{"PELAS", read_pelas, 8, "stiffness of springs"},
+    Role{"PLOAD4", read_pload4, 16, "pressure on a surface"},
+    Role{"PLOTEL", nullptr, 8, "line of a plot"},
+    Role{"PSOLID", read_psolid, 8, "region with its material"},
+    Role{"RBE2", read_rbe2, 0, "rigid coupling; in some directions of a CD system: equations"},
+    Role{"RBE3", read_rbe3, 0, "distributing coupling"},
+    Role{"RFORCE", read_rforce, 24, "rotation"},
+    Role{"SET1", read_set1, 0, "node set"},
+    Role{"SPC", read_spc, 8, "supports, prescribed displacements"},
+    Role{"SPC1", read_spc1, 0, "supports"},
+    Role{"SPCADD", read_spcadd, 0, "sum of sets of supports"},
+    Role{"TEMP", read_temp, 8, "temperatures of nodes"},
+    Role{"TEMPD", read_tempd, 8, "temperature of all other nodes"},
+};
+
+constexpr const char* kNoBeams = "no beams yet";
+constexpr const char* kNoShells = "no shells yet";
+
+// Sorted by name.
+constexpr std::array kRefused = {
+    RefusedCard{"CBAR", kNoBeams},    RefusedCard{"CBEAM", kNoBeams},
+    RefusedCard{"CBEND", kNoBeams},   RefusedCard{"CONROD", kNoBeams},
+    RefusedCard{"CQUAD4", kNoShells}, RefusedCard{"CQUAD8", kNoShells},
+    RefusedCard{"CQUADR", kNoShells}, RefusedCard{"CROD", kNoBeams},
+    RefusedCard{"CSHEAR", kNoShells}, RefusedCard{"CTRIA3", kNoShells},
+    RefusedCard{"CTRIA6", kNoShells}, RefusedCard{"CTRIAR", kNoShells},
+    RefusedCard{"CTUBE", kNoBeams},
+};
+
+constexpr auto kByName = [](const auto& a, const auto& b) { return a.name < b.name; };
+static_assert(std::is_sorted(kRoles.begin(), kRoles.end(), kByName));
+static_assert(std::is_sorted(kRefused.begin(), kRefused.end(), kByName));
+
+template <class Rows>
+auto row_of(const Rows& rows, std::string_view name) -> decltype(&*rows.begin()) {
+  const auto at =
+      std::lower_bound(rows.begin(), rows.end(), name,
+                       [](const auto& row, std::string_view n) { return row.name < n; });
+  return at != rows.end() && at->name == name ? &*at : nullptr;
+}
 
 }  // namespace
 
-const Role* role_of(std::string_view name) {
-  const auto at =
-      std::lower_bound(kRoles.begin(), kRoles.end(), name,
-                       [](const Role& role, std::string_view n) { return role.name < n; });
-  return at != kRoles.end() && at->name == name ? &*at : nullptr;
+const Role* role_of(std::string_view name) { return row_of(kRoles, name); }
+
+std::string_view why_refused(std::string_view name) {
+  const RefusedCard* row = row_of(kRefused, name);
+  return row == nullptr ? std::string_view() : row->why;
 }
+
+std::span<const Role> all_roles() { return kRoles; }
+
+std::span<const RefusedCard> all_refused() { return kRefused; }
 
 }  // namespace clatter::mesh::deck::nastran

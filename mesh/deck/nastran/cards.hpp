@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The role of each card; one function reads each.
+// The role of each card; one function reads each. `clatter-mesh cards` prints these tables.
+#include <span>
+
 #include "mesh/deck/nastran/lines.hpp"
 #include "mesh/deck/nastran/raw_deck.hpp"
 
@@ -8,12 +10,25 @@ namespace clatter::mesh::deck::nastran {
 
 struct Role {
   std::string_view name;
-  void (*read)(const Card&, RawDeck&);  // null: harmless, skipped
+  void (*read)(const Card&, RawDeck&);  // null: harmless, passed over
   size_t most_fields;                   // 0: any number
+  std::string_view meaning;             // what it becomes, or what it is where it is passed over
+};
+
+/// A card that is refused for a known reason; all others without a role are refused, too.
+struct RefusedCard {
+  std::string_view name;
+  std::string_view why;
 };
 
 /// The role of a card by its name in capitals; null for one that is refused by name.
 const Role* role_of(std::string_view name);
+/// Why a card without a role is refused; empty where the reason is that nobody reads it.
+std::string_view why_refused(std::string_view name);
+
+/// All of them, sorted by name.
+std::span<const Role> all_roles();
+std::span<const RefusedCard> all_refused();
 
 // Each reads one card. InputError with file and line for errors and unsupported fields.
 void read_grid(const Card& card, RawDeck& raw);

@@ -63,11 +63,9 @@ class Parser : public CardSink {
       complete_ = false;
       source_.fail(origin, fmt::format("found {}, expected a card of bulk data", shown(name)));
     }
-    const bool shell = name.starts_with("CQUAD") || name.starts_with("CTRIA");
-    const bool beam = name == "CBAR" || name == "CBEAM" || name == "CROD";
-    const char* why = shell ? " (no shells yet)" : beam ? " (no beams yet)" : "";
+    const std::string_view why = why_refused(name);
     source_.fail(origin, fmt::format("card {0} is not supported{1}; ignore = [\"{0}\"] skips it",
-                                     name, why));
+                                     name, why.empty() ? "" : fmt::format(" ({})", why)));
   }
 
   const Source& source_;
