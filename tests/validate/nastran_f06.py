@@ -11,10 +11,8 @@ it differs by at most one in the last digit that is printed of the largest value
 rotations each).
 """
 import collections
-import json
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 
@@ -45,7 +43,7 @@ FAMILIES = {
 LATER = ("bars", "shells", "contact", "finite strain")
 NOT_LINEAR = {105: "buckling", 106: "nonlinear"}
 
-# One row of the table. `verdict`: agrees, differs, refused, waits (for bars or shells), nothing to compare.
+# One row of the table. `verdict`: agrees, differs, refused, waits (for bars or shells), read (nothing to compare).
 Row = collections.namedtuple("Row", "deck families figure ours theirs difference verdict")
 
 
@@ -120,17 +118,18 @@ def without_deck():
     return [folder.name for folder in sorted(DECKS.iterdir()) if folder.is_dir() and not decks_in(folder)]
 
 
-def assemble(deck, folder):
-    """a.mesh.h5, a.fe.toml and a.fe.h5 in `folder`; numbers stay in the deck's units."""
+def read_deck(deck, folder):
+    """a.mesh.h5 and a.fe.toml in `folder`, whose text is returned; numbers stay in the deck's units."""
     run("mesh", deck.path, "--units", "m-kg-s", "-o", "a.mesh.h5", "--recipe", "a.fe.toml", folder=folder)
-    run("assembly", "a.mesh.h5", "-c", "a.fe.toml", "-o", "a.fe.h5", folder=folder)
+    return (folder / "a.fe.toml").read_text()
 
 
 def refusal(text):
     """The first line of a program's refusals that names one, and how many there are."""
     lines = [line.strip() for line in re.sub(r"clatter-\w+: (error: )?", "", text).splitlines() if line.strip()]
     lines = [line for line in lines if not re.search(r"\d+ refusals:$", line)]
-    first = re.sub(r"^.*/(?=[^/]+:\d+: |[^/ ]+: )", "", lines[0])
+    first = re.sub(r" \(and \d+ more, next at [^)]*\)", "", lines[0])
+    first = re.sub(r"^.*/(?=[^/]+:\d+: |[^/ ]+: )", "", first)
     return first + (f" (and {len(lines) - 1} more)" if len(lines) > 1 else "")
 
 
@@ -148,8 +147,8 @@ class Worst:
 
     def row(self, deck, figure):
         label, ours, theirs, difference = self.where
-        verdict = "agrees" if self.units <= 1.0 else "differs"
-        said = f"{difference:.1e}" if self.units > 1.0 else f"{self.units:.1f} in the last digit"
+        verdict = "agrees" if self.units <= 1.01 else "differs"
+        said = f"{difference:.1e}" if verdict == "differs" else f"{self.units:.1f} in the last digit"
         return Row(deck.name, deck.families, f"{self.count} {figure}, worst {label}", f"{ours:.7g}", f"{theirs:.7g}",
                    said, verdict)
 
@@ -179,6 +178,8 @@ def compare_displacements(tables, file, deck):
     worst = Worst()
     for table in tables:
         case = f"subcase_{table.subcase}"
+        if f"cases/{case}" not in file:
+            raise RuntimeError(f"{deck.path.name}: {case} is printed, but no case of the recipe")
         motions = our_motions(file, case)
         for columns in (range(3), range(3, 6)):
             largest, unit = largest_of(table.rows.values(), columns)
@@ -208,7 +209,7 @@ def compare_stresses(tables, file, deck):
 
 
 def compare_statics(deck, folder):
-    of = {title: [table for table in deck.tables if title in table.title and "COMPLEX" not in table.title]
+    of = {title: [table for table in deck.tables or () if title in table.title and "COMPLEX" not in table.title]
           for title in ("DISPLACEMENT VECTOR", "SOLID ELEMENTS")}
     if not of["DISPLACEMENT VECTOR"]:
         return []
@@ -222,7 +223,7 @@ def compare_statics(deck, folder):
 
 def compare_frequencies(deck, folder):
     rows = []
-    for table in deck.tables:
+    for table in deck.tables or ():
         if table.title != "REAL EIGENVALUES":
             continue
         run("modal", "a.fe.h5", "--count", len(table.rows), "-o", "a.modes.h5", folder=folder)
@@ -236,31 +237,47 @@ def compare_frequencies(deck, folder):
     return rows
 
 
+def compare(deck, folder):
+    """Rows of a deck; one that says why there is nothing to compare, where there is nothing."""
+    recipe = read_deck(deck, folder)
+    why, rows = "", []
+    if "[material." not in recipe and "solids" in deck.families:
+        why = "; the deck is a mesh without materials"
+    else:
+        run("assembly", "a.mesh.h5", "-c", "a.fe.toml", "-o", "a.fe.h5", folder=folder)
+        rows = compare_frequencies(deck, folder)
+        if "[[case]]" in recipe:
+            rows += compare_statics(deck, folder)
+    return rows or [Row(deck.name, deck.families, f"printed: {deck.printed()}{why}", "", "", "", "read")]
+
+
 def rows_of(deck):
     """Rows of the table for one deck; the text of its refusal or None."""
-    with tempfile.TemporaryDirectory(prefix="clatter-f06-") as name:
-        folder = pathlib.Path(name)
+    with tempfile.TemporaryDirectory(prefix="clatter-f06-") as folder:
         try:
-            assemble(deck, folder)
-            rows = compare_frequencies(deck, folder) + compare_statics(deck, folder) if deck.tables else []
+            return compare(deck, pathlib.Path(folder)), None
         except RuntimeError as error:
             verdict = f"waits for {deck.waits()}" if deck.waits() else "refused"
             return [Row(deck.name, deck.families, refusal(str(error)), "", "", "", verdict)], str(error)
-    return rows or [Row(deck.name, deck.families, f"printed: {deck.printed()}", "", "", "", "read")], None
+
+
+ORDER = ("refused", "differs", "agrees", "read", "waits", "no deck")
+
+
+def verdicts(rows):
+    """{deck: the worst word of its rows}."""
+    words = collections.defaultdict(list)
+    for row in rows:
+        words[row.deck].append(ORDER.index("waits" if row.verdict.startswith("waits") else row.verdict))
+    return {deck: ORDER[min(found)] for deck, found in words.items()}
 
 
 def summary(rows):
-    """How many decks have each verdict; a deck with several rows has its worst one."""
-    order = ("refused", "differs", "agrees", "read")
-    of_deck = {}
-    for row in rows:
-        word = "waits" if row.verdict.startswith("waits") else row.verdict
-        of_deck.setdefault(row.deck, []).append(word)
-    words = collections.Counter(min(found, key=lambda w: order.index(w) if w in order else 9)
-                                for found in of_deck.values())
-    return (f"{len(of_deck)} decks: {words['agrees']} agree, {words['differs']} differ, {words['read']} are read and "
-            f"have nothing printed that clatter computes, {words['refused']} are refused, {words['waits']} wait for "
-            "elements or solutions that clatter does not have.")
+    count = collections.Counter(verdicts(rows).values())
+    return (f"{len(verdicts(rows))} decks: {count['agrees']} agree, {count['differs']} differ, "
+            f"{count['refused']} are refused; {count['read']} are read and have nothing printed that clatter "
+            f"computes; {count['waits']} wait for elements or solutions that clatter does not have yet; "
+            f"{count['no deck']} is printed results without a deck.")
 
 
 def table_text(rows):
@@ -269,12 +286,21 @@ def table_text(rows):
     return summary(rows) + "\n\n" + docs_table.markdown(head, cells)
 
 
-def all_rows(decks):
-    rows = []
-    for deck in decks:
-        found, _ = rows_of(deck)
-        rows += found
-    return rows
+def all_rows():
+    rows = [row for deck in all_decks() for row in rows_of(deck)[0]]
+    return rows + [Row(name, [], "no deck beside the printed results", "", "", "", "no deck")
+                   for name in without_deck()]
+
+
+def say_some(names):
+    """All rows and messages of decks whose name contains one of `names`."""
+    for deck in all_decks():
+        if any(name in deck.name for name in names):
+            rows, refused = rows_of(deck)
+            print(f"{deck.name}: {', '.join(deck.families)}; SOL {deck.solution}; printed: {deck.printed()}")
+            for row in rows:
+                print("  " + " | ".join(row[2:]))
+            print(refused or "")
 
 
 def main():
@@ -282,18 +308,9 @@ def main():
     if not DECKS.exists():
         sys.exit(f"{DECKS} is absent")
     if names:
-        for deck in all_decks():
-            if any(name in deck.name for name in names):
-                rows, refused = rows_of(deck)
-                print(f"{deck.name}: {', '.join(deck.families)}; {deck.printed()}; SOL {deck.solution}")
-                for row in rows:
-                    print("  " + " | ".join(row[2:]))
-                if refused:
-                    print(refused)
-        return
-    rows = all_rows(all_decks()) + [Row(name, [], "printed results without a deck", "", "", "", "no deck")
-                                    for name in without_deck()]
-    docs_table.finish("nastran_f06", table_text(rows), sys.argv[1:])
+        say_some(names)
+    else:
+        docs_table.finish("nastran_f06", table_text(all_rows()), sys.argv[1:])
 
 
 if __name__ == "__main__":
