@@ -192,10 +192,13 @@ struct Deck {
   std::vector<std::string> notes;          // "file:line: ...": remarks for the user
 };
 
+class Contents;
+
 /// How to read a deck.
 struct ReadOptions {
   std::vector<std::string>
-      ignore;  // cards or keywords to skip, any case: "CQUAD4", "*SHELL SECTION"
+      ignore;                    // cards or keywords to skip, any case: "CQUAD4", "*SHELL SECTION"
+  Contents* contents = nullptr;  // to record what the deck holds, also when it is refused
 };
 
 }  // namespace clatter::mesh::deck

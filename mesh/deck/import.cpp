@@ -40,14 +40,16 @@ Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
     throw InputError(fmt::format("{}: found extension '{}', expected .inp, .bdf, .nas or .dat",
                                  path.string(), extension));
   Deck deck = is_nastran(extension) ? read_nastran(path, options) : read_abaqus(path, options);
-  finish_deck(deck, units, path.string());
+  const bool say_notes = options.contents == nullptr;  // else they are rows of the table
+  finish_deck(deck, units, path.string(), say_notes);
   return deck;
 }
 
-void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where) {
+void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where, bool say_notes) {
   if (deck.mesh.cell_count() == 0)
     throw InputError(fmt::format("{}: found no solid cells, expected some", where));
-  for (const std::string& note : deck.notes) warn(note);
+  if (say_notes)
+    for (const std::string& note : deck.notes) warn(note);
   convert_units(deck, units);
   deck.mesh.surfaces["skin"] = skin_of(boundary_faces(deck.mesh));
   check_structure(deck.mesh, where);

@@ -134,24 +134,37 @@ bool is(std::string_view key, std::string_view name) {
   return key.empty();
 }
 
-const KeywordRole* find(std::string_view key) {
+}  // namespace
+
+const KeywordRole* row_of(std::string_view key) {
   const auto at = std::find_if(kRoles.begin(), kRoles.end(),
                                [&](const KeywordRole& row) { return is(key, row.name); });
   return at == kRoles.end() ? nullptr : &*at;
 }
 
-}  // namespace
-
 Role role_of(std::string_view key) {
-  const KeywordRole* row = find(key);
+  const KeywordRole* row = row_of(key);
   return row == nullptr ? Role::kUnknown : row->role;
 }
 
-std::string_view why_refused(std::string_view key) {
-  const KeywordRole* row = find(key);
-  return row != nullptr && row->role == Role::kUnknown ? row->meaning : std::string_view();
+Fate fate_of(Role role) {
+  switch (role) {
+    case Role::kUnknown:
+    case Role::kProcedure:
+      return Fate::kRefused;
+    case Role::kHarmless:
+    case Role::kMaterialIdle:
+      return Fate::kPassed;
+    default:
+      return Fate::kRead;
+  }
 }
 
-std::span<const KeywordRole> all_roles() { return kRoles; }
+std::vector<Listed> listed_keywords() {
+  std::vector<Listed> rows;
+  for (const KeywordRole& row : kRoles)
+    rows.push_back({"*" + std::string(row.name), fate_of(row.role), std::string(row.meaning)});
+  return rows;
+}
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The role of each keyword. `clatter-mesh cards` prints these tables.
-#include <span>
 #include <string_view>
+#include <vector>
+
+#include "mesh/deck/contents.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 
@@ -33,10 +35,12 @@ struct KeywordRole {
 
 /// The role of a keyword by its folded name without star ("SOLIDSECTION").
 Role role_of(std::string_view key);
-/// Why a keyword is refused; empty where the reason is that nobody reads it.
-std::string_view why_refused(std::string_view key);
+/// Its row; null for one that is refused because nobody reads it.
+const KeywordRole* row_of(std::string_view key);
+/// kRead, kPassed or kRefused.
+Fate fate_of(Role role);
 
-/// All that are not refused, and those that are for a known reason (kUnknown); by role.
-std::span<const KeywordRole> all_roles();
+/// All that are not refused, and those that are for a known reason.
+std::vector<Listed> listed_keywords();
 
 }  // namespace clatter::mesh::deck::abaqus

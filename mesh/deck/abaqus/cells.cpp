@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <string>
 
 #include "mesh/deck/field_text.hpp"
@@ -60,6 +59,8 @@ unsigned corners_of(CellType type, size_t face) {
 }
 
 }  // namespace
+
+std::span<const SolidType> solid_types() { return kSolids; }
 
 std::optional<SolidType> solid_type(std::string_view name) {
   const std::string key = folded(name);

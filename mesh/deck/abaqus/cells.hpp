@@ -2,6 +2,7 @@
 #pragma once
 // Element types and their face numbers.
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "core/mesh/cell.hpp"
@@ -17,6 +18,8 @@ struct SolidType {
   Formulation formulation;
 };
 
+/// All that are supported.
+std::span<const SolidType> solid_types();
 /// By folded name; none for types that are not supported solids.
 std::optional<SolidType> solid_type(std::string_view name);
 

@@ -127,13 +127,14 @@ class Parser {
 
   Lines::Kind read_keyword() {
     const Keyword& keyword = lines_.keyword();
-    if (ignore_.skips(keyword.name)) return skip_data();
+    const bool ignored = ignore_.skips(keyword.name);
     const Role role = role_of(keyword.key);
-    if (left_out_ && step_ >= 0) return read_left_out(role);
     const bool frozen = keyword.key == "BOUNDARY" && keyword.has("FIXED");
-    if ((role == Role::kProcedure || frozen) && step_ >= 0 && steps_before_ > 0) {
-      return begin_left_out(keyword);
-    }
+    const bool last = (role == Role::kProcedure || frozen) && steps_before_ > 0;
+    const bool left_out = step_ >= 0 && (left_out_ || last);
+    record(keyword, ignored, left_out);
+    if (ignored) return skip_data();
+    if (left_out) return left_out_ ? read_left_out(role) : begin_left_out(keyword);
     check_context(keyword, role);
     if (role == Role::kMaterial) parent_ = Role::kMaterial;
     if (role == Role::kCoupling) parent_ = Role::kCoupling;
@@ -171,12 +172,23 @@ class Parser {
     }
   }
 
+  void record(const Keyword& keyword, bool ignored, bool left_out) {
+    Content& content = refusals_.contents().count("keyword", keyword.name, source_, keyword.origin);
+    if (content.count > 1) return;
+    const KeywordRole* row = row_of(keyword.key);
+    content.fate = row == nullptr ? Fate::kRefused : fate_of(row->role);
+    if (row != nullptr) content.meaning = row->meaning;
+    if (ignored) content.fate = Fate::kIgnored;
+    if (left_out) content.fate = Fate::kPassed;
+  }
+
   void refuse(const Keyword& keyword) {
-    const std::string_view why = why_refused(keyword.key);
+    const KeywordRole* row = row_of(keyword.key);
+    const bool known = row != nullptr && row->role == Role::kUnknown;
     refusals_.add(fmt::format(
         "{}: keyword {} is not supported{}; ignore = [\"{}\"] skips it with its data lines",
-        source_.where(keyword.origin), keyword.name, why.empty() ? "" : fmt::format(" ({})", why),
-        keyword.name));
+        source_.where(keyword.origin), keyword.name,
+        known ? fmt::format(" ({})", row->meaning) : "", keyword.name));
   }
 
   // Drops the open step and those that follow from it.

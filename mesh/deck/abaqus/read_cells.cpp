@@ -181,6 +181,38 @@ Lines::Kind skip_elements(Lines& lines, const std::string& type, Scope& scope, I
   return kind;
 }
 
+const char* integration(Formulation formulation) {
+  switch (formulation) {
+    case Formulation::kFull:
+      return ", full integration";
+    case Formulation::kReduced:
+      return ", reduced integration";
+    case Formulation::kIncompatible:
+      return ", incompatible modes";
+    case Formulation::kDefault:
+      return "";
+  }
+  return "";
+}
+
+int64_t elements_in(const Scope& scope) {
+  size_t count = scope.points.size() + scope.ignored_elements.size();
+  for (const CellTable& table : scope.cells) count += table.ids.size();
+  return static_cast<int64_t>(count);
+}
+
+Fate fate_of_type(const std::string& type, const Ignore& ignore) {
+  if (ignore.lists(type)) return Fate::kIgnored;
+  return solid_type(type) || point_nodes(type) > 0 ? Fate::kRead : Fate::kRefused;
+}
+
+Lines::Kind read_type(const std::string& type, Lines& lines, Scope& scope, SetChunk* chunk,
+                      Ignore& ignore) {
+  if (fate_of_type(type, ignore) != Fate::kRead) return skip_elements(lines, type, scope, ignore);
+  if (const auto solid = solid_type(type)) return read_solids(lines, *solid, scope, chunk, ignore);
+  return read_points(lines, type, scope, chunk, ignore);
+}
+
 }  // namespace
 
 Lines::Kind read_nodes(Lines& lines, Scope& scope, Ignore& ignore) {
@@ -212,14 +244,27 @@ Lines::Kind read_elements(Lines& lines, Scope& scope, Ignore& ignore, Refusals& 
     chunk =
         &new_chunk(scope.element_sets, keyword.required("ELSET", lines.source()), keyword.origin);
   }
-  if (ignore.lists(type)) return skip_elements(lines, type, scope, ignore);
-  if (const auto solid = solid_type(type)) return read_solids(lines, *solid, scope, chunk, ignore);
-  if (point_nodes(type) > 0) {
-    return read_points(lines, type, scope, chunk, ignore);
+  Content& content = refusals.contents().count("element", type, lines.source(), keyword.origin, 0);
+  content.fate = fate_of_type(type, ignore);
+  const int64_t before = elements_in(scope);
+  const Lines::Kind kind = read_type(type, lines, scope, chunk, ignore);
+  content.count += elements_in(scope) - before;
+  if (content.fate == Fate::kRefused) {
+    refusals.add(fmt::format("{}: element type {} is not supported; ignore = [\"{}\"] skips it",
+                             lines.source().where(keyword.origin), type, type));
   }
-  refusals.add(fmt::format("{}: element type {} is not supported; ignore = [\"{}\"] skips it",
-                           lines.source().where(keyword.origin), type, type));
-  return skip_elements(lines, type, scope, ignore);
+  return kind;
+}
+
+std::vector<Listed> listed_elements() {
+  std::vector<Listed> rows;
+  for (const SolidType& type : solid_types())
+    rows.push_back({std::string(type.name), Fate::kRead,
+                    fmt::format("{}{}", traits(type.type).name, integration(type.formulation))});
+  for (const auto& [name, nodes] : kPointTypes)
+    rows.push_back(
+        {std::string(name), Fate::kRead, nodes == 1 ? "at one node" : "between two nodes"});
+  return rows;
 }
 
 }  // namespace clatter::mesh::deck::abaqus

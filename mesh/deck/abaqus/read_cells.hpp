@@ -13,4 +13,7 @@ Lines::Kind read_nodes(Lines& lines, Scope& scope, Ignore& ignore);
 /// An unsupported element type is refused and then skipped like one that the user ignores.
 Lines::Kind read_elements(Lines& lines, Scope& scope, Ignore& ignore, Refusals& refusals);
 
+/// All element types that are read.
+std::vector<Listed> listed_elements();
+
 }  // namespace clatter::mesh::deck::abaqus

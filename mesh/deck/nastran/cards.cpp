@@ -97,8 +97,13 @@ std::string_view why_refused(std::string_view name) {
   return row == nullptr ? std::string_view() : row->why;
 }
 
-std::span<const Role> all_roles() { return kRoles; }
-
-std::span<const RefusedCard> all_refused() { return kRefused; }
+std::vector<Listed> listed_cards() {
+  std::vector<Listed> rows;
+  for (const Role& role : kRoles)
+    rows.push_back({std::string(role.name), role.fate(), std::string(role.meaning)});
+  for (const RefusedCard& card : kRefused)
+    rows.push_back({std::string(card.name), Fate::kRefused, std::string(card.why)});
+  return rows;
+}
 
 }  // namespace clatter::mesh::deck::nastran

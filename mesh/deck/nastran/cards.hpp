@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The role of each card; one function reads each. `clatter-mesh cards` prints these tables.
-#include <span>
-
+#include "mesh/deck/contents.hpp"
 #include "mesh/deck/nastran/lines.hpp"
 #include "mesh/deck/nastran/raw_deck.hpp"
 
@@ -13,6 +12,8 @@ struct Role {
   void (*read)(const Card&, RawDeck&);  // null: harmless, passed over
   size_t most_fields;                   // 0: any number
   std::string_view meaning;             // what it becomes, or what it is where it is passed over
+
+  Fate fate() const { return read != nullptr || name == "PARAM" ? Fate::kRead : Fate::kPassed; }
 };
 
 /// A card that is refused for a known reason; all others without a role are refused, too.
@@ -26,9 +27,8 @@ const Role* role_of(std::string_view name);
 /// Why a card without a role is refused; empty where the reason is that nobody reads it.
 std::string_view why_refused(std::string_view name);
 
-/// All of them, sorted by name.
-std::span<const Role> all_roles();
-std::span<const RefusedCard> all_refused();
+/// All of both tables.
+std::vector<Listed> listed_cards();
 
 // Each reads one card. InputError with file and line for errors and unsupported fields.
 void read_grid(const Card& card, RawDeck& raw);

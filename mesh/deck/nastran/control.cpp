@@ -32,6 +32,11 @@ constexpr std::array<std::string_view, 68> kHarmlessCase = {
     "TITLE",        "VECTOR",       "VELOCITY", "VOLUME",      "VUGRID",        "WEIGHTCHECK",
     "XTITLE",       "YTITLE"};
 
+// Those that change what is read.
+constexpr std::array<std::string_view, 2> kReadExecutive = {"CEND", "SOL"};
+constexpr std::array<std::string_view, 8> kReadCase = {"BEGIN", "LOAD", "METHOD",  "MPC",
+                                                       "PARAM", "SPC",  "SUBCASE", "TEMPERATURE"};
+
 // NAME(OPTIONS) = VALUE, in capitals.
 struct Command {
   std::string name, options, value;
@@ -96,12 +101,11 @@ class ControlParser {
         return finish();
       }
       const std::string text(*line);
+      const char* kind = part_ == Part::kExecutive ? "executive" : "case control";
+      Content& content = refusals_.contents().count(kind, command.name, source_, source_.origin());
+      content.fate = Fate::kRefused;
       refusals_.attempt([&] {
-        if (part_ == Part::kExecutive) {
-          executive(command);
-        } else {
-          case_control(command, text);
-        }
+        content.fate = part_ == Part::kExecutive ? executive(command) : case_control(command, text);
       });
     }
     if (part_ == Part::kUnknown) return {};
@@ -131,14 +135,17 @@ class ControlParser {
                  fmt::format("found BEGIN {}, expected BEGIN BULK", shown(command.value)));
   }
 
-  void executive(const Command& command) {
+  Fate executive(const Command& command) {
     if (command.name == "CEND") {
       part_ = Part::kCase;
     } else if (command.name == "SOL") {
       solution(command.value);
-    } else if (!is_one_of(command.name, kHarmlessExecutive)) {
-      refuse(command.name, "executive statement");
+    } else if (is_one_of(command.name, kHarmlessExecutive)) {
+      return Fate::kPassed;
+    } else {
+      return refuse(command.name, "executive statement");
     }
+    return Fate::kRead;
   }
 
   void solution(std::string_view value) {
@@ -152,9 +159,9 @@ class ControlParser {
     }
   }
 
-  void case_control(const Command& command, const std::string& line) {
+  Fate case_control(const Command& command, const std::string& line) {
     control_.has_cases = true;
-    if (plots_ && command.name != "SUBCASE") return;
+    if (plots_ && command.name != "SUBCASE") return Fate::kPassed;
     if (command.name == "SUBCASE") {
       plots_ = false;
       control_.subcases.push_back({set_number(command), source_.origin(), above_});
@@ -162,13 +169,18 @@ class ControlParser {
       const std::string_view text = command.value;
       const size_t gap = std::min(text.find_first_of(", ="), text.size());
       const size_t value = std::min(text.find_first_not_of(", =", gap), text.size());
-      read_parameter(control_, text.substr(0, gap), text.substr(value), source_, source_.origin());
+      const std::string_view name = text.substr(0, gap);
+      if (!read_parameter(control_, name, text.substr(value), source_, source_.origin()))
+        return Fate::kPassed;
     } else if (!choose(command)) {
       if (is(command.name, "OUTPUT"))
         plots_ = has_option(command, "PLOT") || has_option(command, "XYOUT");
       if (command.name == "SET") skip_list(line);
-      if (!is_one_of(command.name, kHarmlessCase)) refuse(command.name, "case control command");
+      if (!is_one_of(command.name, kHarmlessCase))
+        return refuse(command.name, "case control command");
+      return Fate::kPassed;
     }
+    return Fate::kRead;
   }
 
   bool choose(const Command& command) {
@@ -220,8 +232,8 @@ class ControlParser {
     }
   }
 
-  void refuse(const std::string& name, const char* kind) {
-    if (ignore_.skips(name)) return;
+  Fate refuse(const std::string& name, const char* kind) {
+    if (ignore_.skips(name)) return Fate::kIgnored;
     source_.fail(source_.origin(), fmt::format("{} {} is not supported; ignore = [\"{}\"] skips it",
                                                kind, shown(name), name));
   }
@@ -249,15 +261,30 @@ Control read_control(Source& source, Ignore& ignore, Refusals& refusals) {
   return ControlParser(source, ignore, refusals).run();
 }
 
-void read_parameter(Control& control, std::string_view name, std::string_view value,
+std::vector<Listed> listed_commands() {
+  std::vector<Listed> rows;
+  const auto list = [&](const auto& names, Fate fate, const char* where) {
+    for (const std::string_view name : names)
+      if (fate == Fate::kRead || !is_one_of(std::string(name), kReadExecutive))
+        rows.push_back({std::string(name), fate, where});
+  };
+  list(kReadExecutive, Fate::kRead, "executive");
+  list(kHarmlessExecutive, Fate::kPassed, "executive");
+  list(kReadCase, Fate::kRead, "case control; four letters suffice");
+  list(kHarmlessCase, Fate::kPassed, "case control; four letters suffice");
+  return rows;
+}
+
+bool read_parameter(Control& control, std::string_view name, std::string_view value,
                     const Source& source, Origin origin) {
-  if (name != "WTMASS") return;
+  if (name != "WTMASS") return false;
   const auto factor = to_number(value);
   if (!factor || !(*factor > 0.0)) {
     source.fail(origin,
                 fmt::format("PARAM WTMASS: found {}, expected a positive number", shown(value)));
   }
   control.mass_factor = *factor;
+  return true;
 }
 
 }  // namespace clatter::mesh::deck::nastran

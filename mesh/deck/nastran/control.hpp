@@ -7,6 +7,7 @@
 // anything else is refused by name unless the user ignores it.
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesh/deck/ignore.hpp"
@@ -37,8 +38,11 @@ struct Control {
 /// Reads up to and including BEGIN BULK; reads nothing when the deck begins with bulk data.
 Control read_control(Source& source, Ignore& ignore, Refusals& refusals);
 
-/// Applies a PARAM; parameters other than WTMASS are skipped.
-void read_parameter(Control& control, std::string_view name, std::string_view value,
+/// Applies a PARAM; false for parameters other than WTMASS, which are passed over.
+bool read_parameter(Control& control, std::string_view name, std::string_view value,
                     const Source& source, Origin origin);
+
+/// All commands that are not refused, by their full names.
+std::vector<Listed> listed_commands();
 
 }  // namespace clatter::mesh::deck::nastran

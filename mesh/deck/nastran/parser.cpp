@@ -21,11 +21,18 @@ class Parser : public CardSink {
   bool complete() const { return complete_; }
 
   size_t begin(std::string_view name, Origin origin) override {
+    Content& content = refusals_.contents().count("card", name, source_, origin);
     if (role_ && role_->name == name) return role_->most_fields;
     role_ = nullptr;
+    content.fate = Fate::kIgnored;
     if (ignore_.skips(name)) return 0;
     role_ = role_of(name);
-    if (role_) return role_->most_fields;
+    if (role_) {
+      content.fate = role_->fate();
+      content.meaning = role_->meaning;
+      return role_->most_fields;
+    }
+    content.fate = Fate::kRefused;
     refused_.emplace(name);
     refusals_.attempt([&] { refuse(name, origin); });
     return 0;
@@ -47,12 +54,18 @@ class Parser : public CardSink {
  private:
   void read(const Card& card, bool current) {
     const Role& role = current ? *role_ : *role_of(card.name());
-    if (role.name == "PARAM") {
-      read_parameter(raw_.control, card.text(0), card.text(1), source_, card.origin());
-    }
+    if (role.name == "PARAM") parameter(card);
     if (!role.read) return;
     if (role.most_fields > 0) card.at_most(role.most_fields);
     role.read(card, raw_);
+  }
+
+  void parameter(const Card& card) {
+    Content& content =
+        refusals_.contents().count("parameter", card.text(0), source_, card.origin());
+    const bool used =
+        read_parameter(raw_.control, card.text(0), card.text(1), source_, card.origin());
+    content.fate = used ? Fate::kRead : Fate::kPassed;
   }
 
   [[noreturn]] void refuse(std::string_view name, Origin origin) {

@@ -12,7 +12,7 @@ namespace {
 
 Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   Ignore ignore(options, capitals);
-  Refusals refusals;
+  Refusals refusals(options.contents);
   RawDeck raw = parse(source, ignore, refusals);
   std::vector<std::string> notes = std::move(raw.notes);
   std::unique_ptr<Model> model_owner;

@@ -57,8 +57,8 @@ TEST(AbaqusLines, RefusalsNameFileLineAndWhatWasFound) {
             "deck.inp:2: found '-1', expected the number of a node (1 to 2147483647)");
   EXPECT_EQ(refusal("1, 2\n").substr(0, 11), "deck.inp:1:");
   EXPECT_EQ(refusal(kModel + "*SHELL SECTION, ELSET=S\n1.\n"),
-            "deck.inp:24: keyword *SHELL SECTION is not supported; ignore = [\"*SHELL SECTION\"] "
-            "skips it with its data lines");
+            "deck.inp:24: keyword *SHELL SECTION is not supported (no shells yet); ignore = "
+            "[\"*SHELL SECTION\"] skips it with its data lines");
   EXPECT_NE(refusal(kCubeNodes + "*ELEMENT, TYPE=S4\n1,1,2,3,4\n")
                 .find("deck.inp:12: element type S4 is not supported; ignore = [\"S4\"]"),
             std::string::npos);
