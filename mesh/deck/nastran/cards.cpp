@@ -16,7 +16,10 @@ constexpr std::array kRoles = {Role{"ASET", read_aset, 8},      Role{"ASET1", re
                                Role{"CORD1S", read_cord1, 8},   Role{"CORD2C", read_cord2, 16},
                                Role{"CORD2R", read_cord2, 16},  Role{"CORD2S", read_cord2, 16},
                                Role{"CPENTA", read_cell, 24},   Role{"CPYRA", read_cell, 16},
-                               Role{"CPYRAM", read_cell, 16},   Role{"CTETRA", read_cell, 16},
+                               Role{"CPYRAM", read_cell, 16},   Role{"CQUAD4", read_skin, 16},
+                               Role{"CQUAD8", read_skin, 24},   Role{"CQUADR", read_skin, 16},
+                               Role{"CTETRA", read_cell, 16},   Role{"CTRIA3", read_skin, 16},
+                               Role{"CTRIA6", read_skin, 16},   Role{"CTRIAR", read_skin, 16},
                                Role{"ECHOOFF", nullptr, 0},     Role{"ECHOON", nullptr, 0},
                                Role{"EIGR", read_eigr, 16},     Role{"EIGRL", read_eigrl, 0},
                                Role{"FORCE", read_force, 8},    Role{"GRAV", read_grav, 8},
@@ -24,13 +27,15 @@ constexpr std::array kRoles = {Role{"ASET", read_aset, 8},      Role{"ASET1", re
                                Role{"LOAD", read_load, 0},      Role{"MAT1", read_mat1, 16},
                                Role{"MAT9", read_mat9, 32},     Role{"MOMENT", read_force, 8},
                                Role{"MPC", read_mpc, 0},        Role{"MPCADD", read_mpcadd, 0},
-                               Role{"PARAM", nullptr, 8},       Role{"PELAS", read_pelas, 8},
+                               Role{"PARAM", nullptr, 8},       Role{"PCOMP", read_pshell, 0},
+                               Role{"PCOMPG", read_pshell, 0},  Role{"PELAS", read_pelas, 8},
                                Role{"PLOAD4", read_pload4, 16}, Role{"PLOTEL", nullptr, 8},
-                               Role{"PSOLID", read_psolid, 8},  Role{"RBE2", read_rbe2, 0},
-                               Role{"RBE3", read_rbe3, 0},      Role{"RFORCE", read_rforce, 24},
-                               Role{"SET1", read_set1, 0},      Role{"SPC", read_spc, 8},
-                               Role{"SPC1", read_spc1, 0},      Role{"SPCADD", read_spcadd, 0},
-                               Role{"TEMP", read_temp, 8},      Role{"TEMPD", read_tempd, 8}};
+                               Role{"PSHELL", read_pshell, 16}, Role{"PSOLID", read_psolid, 8},
+                               Role{"RBE2", read_rbe2, 0},      Role{"RBE3", read_rbe3, 0},
+                               Role{"RFORCE", read_rforce, 24}, Role{"SET1", read_set1, 0},
+                               Role{"SPC", read_spc, 8},        Role{"SPC1", read_spc1, 0},
+                               Role{"SPCADD", read_spcadd, 0},  Role{"TEMP", read_temp, 8},
+                               Role{"TEMPD", read_tempd, 8}};
 
 static_assert(std::is_sorted(kRoles.begin(), kRoles.end(),
                              [](const Role& a, const Role& b) { return a.name < b.name; }));
