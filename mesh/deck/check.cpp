@@ -89,6 +89,9 @@ void add_remarks(const Deck& deck, std::vector<CheckedRow>& rows) {
     });
     if (!listed) rows.push_back({count, "", name, "left out", "", ""});
   }
+  for (const auto& [name, count] : deck.passed)
+    for (CheckedRow& row : rows)
+      if (row.name == name && row.fate == "read") row.fate = name_of(Fate::kPassed);
   for (const std::string& note : deck.notes) {
     const auto [where, text] = divided(note);
     rows.push_back({1, "", "", "noted", where, text});

@@ -54,6 +54,8 @@ struct Material {
   double density = 0.0;           // 0: the deck has none
   std::vector<double> expansion;  // 1 (isotropic), 3 (along the axes) or none [1/K]
   double reference_temperature = 0.0;
+  double mass_damping = 0.0;       // the deck's damping: this times M [1/time]
+  double stiffness_damping = 0.0;  // plus this times K [time]
 };
 
 /// Integration of each cell type of a region, if the deck specifies it.
@@ -189,6 +191,7 @@ struct Deck {
   std::vector<Support> retained;  // ASET, BSET: boundary DoFs of a condensation (value unused)
   std::vector<Step> steps;
   std::map<std::string, int64_t> ignored;  // ignored input, with counts
+  std::map<std::string, int64_t> passed;   // changes neither K nor M: passed over, with counts
   std::vector<std::string> notes;          // "file:line: ...": remarks for the user
 };
 

@@ -7,6 +7,8 @@ namespace {
 void convert_materials(Deck& deck, const UnitSystem& units) {
   for (auto& [name, material] : deck.materials) {
     material.density *= units.mass / (units.length * units.length * units.length);
+    material.mass_damping /= units.time;
+    material.stiffness_damping *= units.time;
     for (size_t i = 0; i < material.constants.size(); ++i) {
       const bool ratio = (material.kind == Material::Kind::kIsotropic && i == 1) ||
                          (material.kind == Material::Kind::kOrthotropic && i >= 3 && i <= 5);

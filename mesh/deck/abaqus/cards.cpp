@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/deck/abaqus/cards.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -9,14 +11,22 @@ namespace {
 
 constexpr const char* kNotLinear = "left out after linear steps, else refused";
 constexpr const char* kOutput = "output";
-constexpr const char* kNoBeams = "no beams yet";
-constexpr const char* kNoShells = "no shells yet";
+constexpr const char* kIdle = "changes neither K nor M";
+constexpr const char* kThin =
+    "of shells and beams, which are surfaces where they are faces of solids";
 
 constexpr std::array kRoles = {
     KeywordRole{"NODE", Role::kNode, "nodes"},
     KeywordRole{"ELEMENT", Role::kElement, "cells and elements of one or two nodes (types below)"},
     KeywordRole{"NSET", Role::kSet, "node set"},
     KeywordRole{"ELSET", Role::kSet, "element set"},
+    KeywordRole{"NGEN", Role::kGenerate, "nodes on a line"},
+    KeywordRole{"NFILL", Role::kGenerate, "nodes between two sets"},
+    KeywordRole{"NCOPY", Role::kGenerate, "copies of nodes"},
+    KeywordRole{"ELGEN", Role::kGenerate, "rows of elements"},
+    KeywordRole{"ELCOPY", Role::kGenerate, "copies of elements"},
+    KeywordRole{"SYSTEM", Role::kSystem, "coordinate system of the nodes that follow"},
+    KeywordRole{"PARAMETER", Role::kParameter, "numbers by name"},
     KeywordRole{"PART", Role::kStructure, "mesh of instances"},
     KeywordRole{"END PART", Role::kStructure, "end of a part"},
     KeywordRole{"ASSEMBLY", Role::kStructure, "all instances"},
@@ -30,11 +40,42 @@ constexpr std::array kRoles = {
                 "isotropic, engineering constants, orthotropic, anisotropic"},
     KeywordRole{"DENSITY", Role::kMaterialPart, "density"},
     KeywordRole{"EXPANSION", Role::kMaterialPart, "thermal expansion"},
+    KeywordRole{"DAMPING", Role::kMaterialPart, "alpha and beta, offered to the recipe"},
+    KeywordRole{"ANNEAL TEMPERATURE", Role::kMaterialIdle, kIdle},
     KeywordRole{"CONDUCTIVITY", Role::kMaterialIdle, "of heat transfer"},
+    KeywordRole{"CREEP", Role::kMaterialIdle, kIdle},
+    KeywordRole{"CYCLIC HARDENING", Role::kMaterialIdle, kIdle},
+    KeywordRole{"DAMAGE EVOLUTION", Role::kMaterialIdle, kIdle},
+    KeywordRole{"DAMAGE INITIATION", Role::kMaterialIdle, kIdle},
+    KeywordRole{"DAMAGE STABILIZATION", Role::kMaterialIdle, kIdle},
+    KeywordRole{"DEPVAR", Role::kMaterialIdle, kIdle},
+    KeywordRole{"FAIL STRAIN", Role::kMaterialIdle, kIdle},
+    KeywordRole{"FAIL STRESS", Role::kMaterialIdle, kIdle},
+    KeywordRole{"LATENT HEAT", Role::kMaterialIdle, kIdle},
+    KeywordRole{"PLASTIC", Role::kMaterialIdle, kIdle},
+    KeywordRole{"POTENTIAL", Role::kMaterialIdle, kIdle},
+    KeywordRole{"RATE DEPENDENT", Role::kMaterialIdle, kIdle},
     KeywordRole{"SPECIFIC HEAT", Role::kMaterialIdle, "of heat transfer"},
+    KeywordRole{"TENSILE FAILURE", Role::kMaterialIdle, kIdle},
     KeywordRole{"COUPLING", Role::kCoupling, "coupling of a surface or set to a reference node"},
     KeywordRole{"KINEMATIC", Role::kCouplingPart, "rigid coupling"},
     KeywordRole{"DISTRIBUTING", Role::kCouplingPart, "distributing coupling"},
+    KeywordRole{"SURFACE INTERACTION", Role::kInteraction, "decides whether a contact is bonded"},
+    KeywordRole{"SURFACE BEHAVIOR", Role::kInteraction, kIdle},
+    KeywordRole{"COHESIVE BEHAVIOR", Role::kInteraction, kIdle},
+    KeywordRole{"FRICTION", Role::kInteraction, kIdle},
+    KeywordRole{"CONTACT", Role::kModel, "ties of bonded surfaces"},
+    KeywordRole{"CONTACT EXCLUSIONS", Role::kModel, "surfaces of a bonded contact"},
+    KeywordRole{"CONTACT INCLUSIONS", Role::kModel, "surfaces of a bonded contact"},
+    KeywordRole{"CONTACT PAIR", Role::kModel, "a tie where it is bonded"},
+    KeywordRole{"CONTACT PROPERTY ASSIGNMENT", Role::kModel, "decides whether a contact is bonded"},
+    KeywordRole{"BEAM GENERAL SECTION", Role::kModel, kThin},
+    KeywordRole{"BEAM SECTION", Role::kModel, kThin},
+    KeywordRole{"MEMBRANE SECTION", Role::kModel, kThin},
+    KeywordRole{"SHELL GENERAL SECTION", Role::kModel, kThin},
+    KeywordRole{"SHELL SECTION", Role::kModel, kThin},
+    KeywordRole{"SURFACE SECTION", Role::kModel, kThin},
+    KeywordRole{"KINEMATIC COUPLING", Role::kModel, "rigid coupling"},
     KeywordRole{"AMPLITUDE", Role::kModel, "a constant one"},
     KeywordRole{"BOUNDARY", Role::kModel, "supports, prescribed displacements"},
     KeywordRole{"DISTRIBUTING COUPLING", Role::kModel, "distributing coupling"},
@@ -80,48 +121,64 @@ constexpr std::array kRoles = {
     KeywordRole{"STEADY STATE DYNAMICS", Role::kProcedure, kNotLinear},
     KeywordRole{"UNCOUPLED TEMPERATURE-DISPLACEMENT", Role::kProcedure, kNotLinear},
     KeywordRole{"VISCO", Role::kProcedure, kNotLinear},
+    KeywordRole{"BASE MOTION", Role::kHarmless, kIdle},
+    KeywordRole{"CHANGE FRICTION", Role::kHarmless, kIdle},
+    KeywordRole{"CONTACT CONTROLS", Role::kHarmless, kIdle},
+    KeywordRole{"CONTACT DAMPING", Role::kHarmless, kIdle},
     KeywordRole{"CONTACT FILE", Role::kHarmless, kOutput},
+    KeywordRole{"CONTACT INITIALIZATION ASSIGNMENT", Role::kHarmless, kIdle},
+    KeywordRole{"CONTACT INITIALIZATION DATA", Role::kHarmless, kIdle},
     KeywordRole{"CONTACT OUTPUT", Role::kHarmless, kOutput},
     KeywordRole{"CONTACT PRINT", Role::kHarmless, kOutput},
+    KeywordRole{"CONTACT STABILIZATION", Role::kHarmless, kIdle},
     KeywordRole{"CONTROLS", Role::kHarmless, "control of the solver"},
     KeywordRole{"DESIGN RESPONSE", Role::kHarmless, "of a sensitivity"},
     KeywordRole{"DESIGN VARIABLES", Role::kHarmless, "of a sensitivity"},
+    KeywordRole{"DIAGNOSTICS", Role::kHarmless, kIdle},
+    KeywordRole{"ELEMENT MATRIX OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"ELEMENT OUTPUT", Role::kHarmless, kOutput},
     KeywordRole{"EL FILE", Role::kHarmless, kOutput},
     KeywordRole{"EL PRINT", Role::kHarmless, kOutput},
-    KeywordRole{"ELEMENT OUTPUT", Role::kHarmless, kOutput},
     KeywordRole{"ENERGY FILE", Role::kHarmless, kOutput},
     KeywordRole{"ENERGY OUTPUT", Role::kHarmless, kOutput},
     KeywordRole{"ENERGY PRINT", Role::kHarmless, kOutput},
     KeywordRole{"FACE PRINT", Role::kHarmless, kOutput},
     KeywordRole{"FILE FORMAT", Role::kHarmless, kOutput},
     KeywordRole{"FILE OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"FILTER", Role::kHarmless, kIdle},
+    KeywordRole{"GAP CONDUCTANCE", Role::kHarmless, kIdle},
+    KeywordRole{"GAP HEAT GENERATION", Role::kHarmless, kIdle},
+    KeywordRole{"GLOBAL DAMPING", Role::kHarmless, kIdle},
     KeywordRole{"HEADING", Role::kHarmless, "title"},
+    KeywordRole{"HOURGLASS STIFFNESS", Role::kHarmless, kIdle},
+    KeywordRole{"INCREMENTATION OUTPUT", Role::kHarmless, kOutput},
     KeywordRole{"INTEGRATED OUTPUT", Role::kHarmless, kOutput},
     KeywordRole{"MATRIX OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"MODAL DAMPING", Role::kHarmless, kIdle},
     KeywordRole{"MODAL FILE", Role::kHarmless, kOutput},
     KeywordRole{"MODAL OUTPUT", Role::kHarmless, kOutput},
     KeywordRole{"MODAL PRINT", Role::kHarmless, kOutput},
     KeywordRole{"MONITOR", Role::kHarmless, kOutput},
+    KeywordRole{"NO ANALYSIS", Role::kHarmless, "control of the run"},
     KeywordRole{"NODE FILE", Role::kHarmless, kOutput},
     KeywordRole{"NODE OUTPUT", Role::kHarmless, kOutput},
     KeywordRole{"NODE PRINT", Role::kHarmless, kOutput},
-    KeywordRole{"NO ANALYSIS", Role::kHarmless, "control of the run"},
     KeywordRole{"OUTPUT", Role::kHarmless, kOutput},
     KeywordRole{"PHYSICAL CONSTANTS", Role::kHarmless, "of heat transfer"},
     KeywordRole{"PREPRINT", Role::kHarmless, kOutput},
     KeywordRole{"PRINT", Role::kHarmless, kOutput},
     KeywordRole{"RADIATION FILE", Role::kHarmless, kOutput},
     KeywordRole{"RESTART", Role::kHarmless, "files of a restart"},
+    KeywordRole{"SECTION CONTROLS", Role::kHarmless, kIdle},
     KeywordRole{"SECTION FILE", Role::kHarmless, kOutput},
     KeywordRole{"SECTION PRINT", Role::kHarmless, kOutput},
+    KeywordRole{"SELECT EIGENMODES", Role::kHarmless, kIdle},
+    KeywordRole{"SOLVER CONTROLS", Role::kHarmless, kIdle},
     KeywordRole{"SUBSTRUCTURE MATRIX OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"SURFACE PROPERTY ASSIGNMENT", Role::kHarmless, kIdle},
     KeywordRole{"TIME POINTS", Role::kHarmless, "of output"},
-    KeywordRole{"BEAM SECTION", Role::kUnknown, kNoBeams},
-    KeywordRole{"BEAM GENERAL SECTION", Role::kUnknown, kNoBeams},
-    KeywordRole{"FRAME SECTION", Role::kUnknown, kNoBeams},
-    KeywordRole{"MEMBRANE SECTION", Role::kUnknown, kNoShells},
-    KeywordRole{"SHELL GENERAL SECTION", Role::kUnknown, kNoShells},
-    KeywordRole{"SHELL SECTION", Role::kUnknown, kNoShells},
+    KeywordRole{"TRANSVERSE SHEAR STIFFNESS", Role::kHarmless, kIdle},
+    KeywordRole{"USER OUTPUT VARIABLES", Role::kHarmless, kOutput},
 };
 
 // `key` has no blanks.
@@ -135,6 +192,29 @@ bool is(std::string_view key, std::string_view name) {
 }
 
 }  // namespace
+
+std::string advice_of(std::string_view key) {
+  if (role_of(key) == Role::kProcedure) return "";
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kLosses = {
+      {{"CONNECTOR", "its connections: [[spring]] and [[equation]]"},
+       {"FASTENER", "its connections: [[spring]] and [[coupling]]"},
+       {"GAP", "the stiffness of its gaps: [[spring]]"},
+       {"JOINT", "its stiffness: [[spring]]"},
+       {"GASKET", "its stiffness: [[spring]] or [[tie]]"},
+       {"NONSTRUCTURALMASS", "its mass: [[point_mass]]"},
+       {"EMBEDDEDELEMENT", "its connection: [[coupling]] or [[tie]]"},
+       {"SHELLTOSOLIDCOUPLING", "its connection: [[coupling]] or [[tie]]"},
+       {"MATRIX", "its stiffness and mass: [[spring]] and [[point_mass]]"},
+       {"SUBSTRUCTURE", "its stiffness and mass: [[spring]] and [[point_mass]]"},
+       {"USERELEMENT", "its stiffness and mass: [[spring]] and [[point_mass]]"},
+       {"INERTIARELIEF", "its balance of loads: [[support]] of six DoFs"}}};
+  for (const auto& [name, loss] : kLosses) {
+    if (key.starts_with(name)) return fmt::format(" and {} of the recipe replace it", loss);
+  }
+  return ", and what it adds to stiffness, mass, supports or couplings: [[spring]], "
+         "[[point_mass]], "
+         "[[support]], [[coupling]] of the recipe replace it";
+}
 
 const KeywordRole* row_of(std::string_view key) {
   const auto at = std::find_if(kRoles.begin(), kRoles.end(),
@@ -153,6 +233,7 @@ Fate fate_of(Role role) {
     case Role::kProcedure:
       return Fate::kRefused;
     case Role::kHarmless:
+    case Role::kInteraction:
     case Role::kMaterialIdle:
       return Fate::kPassed;
     default:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The role of each keyword. `clatter-mesh cards` prints these tables.
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -9,17 +10,21 @@
 namespace clatter::mesh::deck::abaqus {
 
 enum class Role {
-  kUnknown,   // refused by name
-  kHarmless,  // output requests, solver controls: skipped with its data lines
-  kNode,      // tables, read directly
+  kUnknown,      // refused by name
+  kHarmless,     // changes neither K nor M: passed over with its data lines, and counted
+  kInteraction,  // the same, but kept: it decides whether a contact is bonded
+  kNode,         // tables, read directly
   kElement,
   kSet,        // *NSET, *ELSET
+  kGenerate,   // *NGEN, *ELGEN and others: more rows of these tables
+  kSystem,     // *SYSTEM: axes of the coordinates that follow
+  kParameter,  // *PARAMETER: numbers by name
   kStructure,  // *PART, *ASSEMBLY, *INSTANCE and their ends
   kStepBegin,
   kStepEnd,
   kMaterial,      // *MATERIAL; its properties follow
   kMaterialPart,  // *ELASTIC and others, only after *MATERIAL
-  kMaterialIdle,  // *CONDUCTIVITY: has no effect here, only after *MATERIAL
+  kMaterialIdle,  // *CONDUCTIVITY: the same as kHarmless, only after *MATERIAL
   kCoupling,      // *COUPLING; *KINEMATIC or *DISTRIBUTING follows
   kCouplingPart,
   kModel,      // any other that is kept until the deck is read
@@ -32,6 +37,10 @@ struct KeywordRole {
   Role role;
   std::string_view meaning;  // what it becomes, or why it is refused or passed over
 };
+
+/// What an ignored keyword takes from the model and what of the recipe replaces it, to be appended
+/// to the advice; empty for procedures.
+std::string advice_of(std::string_view key);
 
 /// The role of a keyword by its folded name without star ("SOLIDSECTION").
 Role role_of(std::string_view key);

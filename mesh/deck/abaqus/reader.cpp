@@ -15,15 +15,18 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   Refusals refusals(options.contents);
   RawDeck raw = parse(source, ignore, refusals);
   std::vector<std::string> notes = std::move(raw.notes);
+  std::map<std::string, int64_t> passed = std::move(raw.passed);
   std::unique_ptr<Model> model_owner;
   refusals.require(
       [&] { model_owner = std::make_unique<Model>(source, std::move(raw), ignore, refusals); });
   Model& model = *model_owner;
   model.deck.mesh.name = name;
   model.deck.notes = std::move(notes);
+  model.deck.passed = std::move(passed);
   build_materials(model);
   build_systems(model);
   refusals.require([&] { build_mesh(model); });
+  refusals.attempt([&] { build_thin(model); });
   build_surfaces(model);
   build_bolts(model);
   build_transforms(model);
@@ -31,6 +34,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   build_couplings(model);
   build_distributing(model);
   build_ties(model);
+  build_contacts(model);
   build_masses(model);
   build_springs(model);
   build_equations(model);

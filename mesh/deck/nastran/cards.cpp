@@ -11,6 +11,7 @@ constexpr const char* kRetained = "boundary DoFs of a condensation";
 constexpr const char* kSystem = "coordinate system";
 constexpr const char* kCell = "cells, with any mid-side nodes or none";
 constexpr const char* kEcho = "printing";
+constexpr const char* kSkin = "surface where it is a face of a solid";
 
 // Sorted by name.
 constexpr std::array kRoles = {
@@ -31,7 +32,13 @@ constexpr std::array kRoles = {
     Role{"CPENTA", read_cell, 24, kCell},
     Role{"CPYRA", read_cell, 16, kCell},
     Role{"CPYRAM", read_cell, 16, kCell},
+    Role{"CQUAD4", read_skin, 16, kSkin},
+    Role{"CQUAD8", read_skin, 24, kSkin},
+    Role{"CQUADR", read_skin, 16, kSkin},
     Role{"CTETRA", read_cell, 16, kCell},
+    Role{"CTRIA3", read_skin, 16, kSkin},
+    Role{"CTRIA6", read_skin, 16, kSkin},
+    Role{"CTRIAR", read_skin, 16, kSkin},
     Role{"ECHOOFF", nullptr, 0, kEcho},
     Role{"ECHOON", nullptr, 0, kEcho},
     Role{"EIGR", read_eigr, 16, "number of modes of a step"},
@@ -47,9 +54,12 @@ constexpr std::array kRoles = {
     Role{"MPC", read_mpc, 0, "equation"},
     Role{"MPCADD", read_mpcadd, 0, "sum of sets of equations"},
     Role{"PARAM", nullptr, 8, "WTMASS scales densities and masses; others are passed over"},
+    Role{"PCOMP", read_pshell, 0, "of skins"},
+    Role{"PCOMPG", read_pshell, 0, "of skins"},
     Role{"PELAS", read_pelas, 8, "stiffness of springs"},
     Role{"PLOAD4", read_pload4, 16, "pressure on a surface"},
     Role{"PLOTEL", nullptr, 8, "line of a plot"},
+    Role{"PSHELL", read_pshell, 16, "of skins"},
     Role{"PSOLID", read_psolid, 8, "region with its material"},
     Role{"RBE2", read_rbe2, 0, "rigid coupling; in some directions of a CD system: equations"},
     Role{"RBE3", read_rbe3, 0, "distributing coupling"},
@@ -67,12 +77,9 @@ constexpr const char* kNoShells = "no shells yet";
 
 // Sorted by name.
 constexpr std::array kRefused = {
-    RefusedCard{"CBAR", kNoBeams},    RefusedCard{"CBEAM", kNoBeams},
-    RefusedCard{"CBEND", kNoBeams},   RefusedCard{"CONROD", kNoBeams},
-    RefusedCard{"CQUAD4", kNoShells}, RefusedCard{"CQUAD8", kNoShells},
-    RefusedCard{"CQUADR", kNoShells}, RefusedCard{"CROD", kNoBeams},
-    RefusedCard{"CSHEAR", kNoShells}, RefusedCard{"CTRIA3", kNoShells},
-    RefusedCard{"CTRIA6", kNoShells}, RefusedCard{"CTRIAR", kNoShells},
+    RefusedCard{"CBAR", kNoBeams},  RefusedCard{"CBEAM", kNoBeams},
+    RefusedCard{"CBEND", kNoBeams}, RefusedCard{"CONROD", kNoBeams},
+    RefusedCard{"CROD", kNoBeams},  RefusedCard{"CSHEAR", kNoShells},
     RefusedCard{"CTUBE", kNoBeams},
 };
 

@@ -37,6 +37,8 @@ void read_cord1(const Card& card, RawDeck& raw);  // CORD1R, CORD1C, CORD1S
 void read_cord2(const Card& card, RawDeck& raw);  // CORD2R, CORD2C, CORD2S
 void read_cell(const Card& card, RawDeck& raw);   // CTETRA, CPYRAM, CPENTA, CHEXA
 void read_psolid(const Card& card, RawDeck& raw);
+void read_skin(const Card& card, RawDeck& raw);    // CTRIA3, CTRIA6, CTRIAR, CQUAD4, CQUAD8, CQUADR
+void read_pshell(const Card& card, RawDeck& raw);  // PSHELL, PCOMP, PCOMPG
 void read_mat1(const Card& card, RawDeck& raw);
 void read_mat9(const Card& card, RawDeck& raw);
 void read_rbe2(const Card& card, RawDeck& raw);

@@ -77,6 +77,8 @@ void build_surfaces(Model& model);
 void build_initial_temperature(Model& model);
 /// Subcases with their loads.
 void build_steps(Model& model);
+/// Shells that are faces of solids -> Mesh::surfaces; others with a property are refused.
+void build_skins(Model& model);
 /// Adds the face of a PLOAD4 to a surface.
 void add_face(Model& model, const RawPressure& raw, SurfaceBuilder& surface);
 /// Adds a term unless its coefficient is 0.

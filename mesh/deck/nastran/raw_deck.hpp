@@ -62,6 +62,21 @@ struct RawSystem {
   std::array<double, 9> points{};  // A, B, C
 };
 
+struct RawSkin {  // CTRIA3, CTRIA6, CTRIAR, CQUAD4, CQUAD8, CQUADR
+  std::string kind;
+  FaceType type = FaceType::kTri3;
+  int32_t id = 0, property = 0;
+  Origin origin = 0;
+  std::array<int32_t, kMaxFaceNodes> grids{};
+};
+
+struct RawShell {  // PSHELL, PCOMP
+  Origin origin = 0;
+  std::string card;
+  int32_t material = 0;    // 0: none
+  double thickness = 0.0;  // 0: not known
+};
+
 struct RawSolid {  // PSOLID
   Origin origin = 0;
   int32_t material = 0;
@@ -213,6 +228,8 @@ struct RawDeck {
   std::map<std::pair<CellType, int32_t>, size_t> block_index;  // by type and property
   std::map<int32_t, RawSystem> systems;
   std::map<int32_t, RawSolid> solids;
+  std::vector<RawSkin> skins;
+  std::map<int32_t, RawShell> shells;
   std::map<int32_t, RawMaterial> materials;
   std::vector<RawRigid> rigid;
   std::vector<RawDistributing> distributing;

@@ -29,6 +29,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   refusals.attempt([&] { build_supports(model); });
   build_sets(model);
   build_surfaces(model);
+  refusals.attempt([&] { build_skins(model); });
   build_initial_temperature(model);
   build_steps(model);
   refusals.raise();

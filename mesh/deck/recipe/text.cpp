@@ -26,7 +26,9 @@ class RecipeWriter {
         deck_.files.empty() ? "a deck" : deck_.files.front());
     for (const auto& [card, count] : deck_.ignored)
       put("# ignored in the deck: {} ({} times)\n", card, count);
+    if (!deck_.passed.empty()) put("# {}\n", passed_line(deck_));
     for (const std::string& note : deck_.notes) put("# {}\n", note);
+    offer_damping();
     systems();
     materials();
     std::string relations = std::exchange(text_, {});
@@ -56,6 +58,17 @@ class RecipeWriter {
   template <class... Args>
   void put(fmt::format_string<Args...> format, Args&&... args) {
     fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+  }
+
+  /// One model has one damping, a deck one for each material: the user decides.
+  void offer_damping() {
+    for (const auto& [name, material] : deck_.materials) {
+      if (material.mass_damping == 0.0 && material.stiffness_damping == 0.0) continue;
+      put("\n# the deck's damping of {} ({}), not used unless these lines are:\n# [damping]\n# "
+          "alpha "
+          "= {}\n# beta = {}\n",
+          name, material.where, material.stiffness_damping, material.mass_damping);
+    }
   }
 
   void systems() {
@@ -239,6 +252,13 @@ class RecipeWriter {
 };
 
 }  // namespace
+
+std::string passed_line(const Deck& deck) {
+  std::vector<std::string> names;
+  for (const auto& [name, count] : deck.passed)
+    names.push_back(count == 1 ? name : fmt::format("{} ({})", name, count));
+  return fmt::format("passed over, since it changes neither K nor M: {}", fmt::join(names, ", "));
+}
 
 std::string recipe_text(Deck& deck) { return RecipeWriter(deck).write(); }
 

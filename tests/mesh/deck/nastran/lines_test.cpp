@@ -144,9 +144,11 @@ TEST(NastranFormat, EnddataEndsTheDeck) {
 
 TEST(NastranFormat, UnknownCardsAreNamedAndCanBeIgnored) {
   const std::string deck = kTet + "CQUAD4,5,2,1,2,3,4\nCQUAD4,6,2,1,2,3,4\n";
-  EXPECT_EQ(refusal(deck),
-            "t.bdf:8: card CQUAD4 is not supported (no shells yet); ignore = [\"CQUAD4\"] skips it "
-            "(and 1 more, next at t.bdf:9)");
+  EXPECT_EQ(
+      refusal(deck),
+      "t.bdf:8: card CQUAD4 is not supported (no shells yet): 2 of them are not the face of a "
+      "solid; ignore = [\"CQUAD4\"] leaves out their stiffness and mass: [[spring]], "
+      "[[coupling]] and [[point_mass]] of the recipe replace them");
   EXPECT_EQ(read_deck(deck, {"cquad4"}).ignored.at("CQUAD4"), 2);
   EXPECT_EQ(read_deck(kTet + "MAT8,1,2.,3.,,,,,,+\n+,1.\n", {"MAT8"}).ignored.at("MAT8"), 1);
 }

@@ -193,8 +193,11 @@ TEST(NastranModel, SolidsInTurnedSystemsKeepTheirMassAndPosition) {
 
 TEST(NastranModel, ShellsAreNotDroppedSilently) {
   const mesh::Mesh mesh = block({1, 2, 2}, {3.0, 4.0, 5.0}, CellType::kHex8);
-  expect_parts(refusal(satellite(mesh), {"CBAR", "PSHELL", "PBARL"}),
-               {"card CQUAD4 is not supported"});
+  const Deck deck = read_deck(satellite(mesh), {"CBAR", "PBARL"});
+  EXPECT_EQ(deck.mesh.surface("pid_300").face_count(), 4);
+  ASSERT_THAT(deck.notes, SizeIs(2));
+  expect_parts(deck.notes[0], {"4 CQUAD4: faces of solids, now the surface pid_300"});
+  expect_parts(deck.notes[1], {"PSHELL 300 gives stiffness to faces of solids, 0.1 thick"});
 }
 
 TEST(NastranModel, CubesOfAllKindsOfCells) {

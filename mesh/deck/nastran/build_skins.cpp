@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shells that are faces of solids (radiating panels, skins for stresses) are surfaces.
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <map>
+
+#include "mesh/deck/nastran/model.hpp"
+#include "mesh/deck/skins.hpp"
+
+namespace clatter::mesh::deck::nastran {
+namespace {
+
+std::vector<SkinCell> cells_of(const Model& model) {
+  std::vector<SkinCell> cells;
+  for (const RawSkin& raw : model.raw.skins) {
+    SkinCell& cell = cells.emplace_back();
+    cell.kind = raw.kind;
+    cell.type = raw.type;
+    for (size_t i = 0; i < static_cast<size_t>(traits(raw.type).nodes); ++i) {
+      const NodeIndex node = model.find(raw.grids[i], raw.origin);
+      cell.nodes[i] = node >= 0 && model.node_map.is_point(node) ? -1 : node;
+    }
+  }
+  return cells;
+}
+
+// A shell has stiffness, unless the deck is a mesh without properties.
+bool refuse_shells(Model& model, const Skins& skins) {
+  if (model.raw.solids.empty() && model.raw.shells.empty()) return false;
+  std::map<std::string, std::pair<int64_t, Origin>> found;
+  for (size_t c = 0; c < skins.size(); ++c) {
+    const RawSkin& raw = model.raw.skins[c];
+    if (skins.is_surface(c)) continue;
+    ++found.try_emplace(raw.kind, 0, raw.origin).first->second.first;
+  }
+  for (const auto& [kind, count] : found) {
+    model.refusals.add(fmt::format(
+        "{}: card {} is not supported (no shells yet): {} of them are not the face of a solid; "
+        "ignore = [\"{}\"] leaves out their stiffness and mass: [[spring]], [[coupling]] and "
+        "[[point_mass]] of the recipe replace them",
+        model.source.where(count.second), kind, count.first, kind));
+  }
+  return !found.empty();
+}
+
+double area_of(const Mesh& mesh, const SkinCell& cell) {
+  const auto at = [&](size_t i) -> Eigen::Vector3d { return mesh.nodes.row(cell.nodes[i]); };
+  const bool triangle = traits(cell.type).corners == 3;
+  const Eigen::Vector3d d = at(triangle ? 1 : 2) - at(0);
+  const Eigen::Vector3d e = at(triangle ? 2 : 3) - at(triangle ? 0 : 1);
+  return 0.5 * d.cross(e).norm();
+}
+
+void note_property(Model& model, const Skins& skins, const RawShell& shell, int32_t property,
+                   const std::vector<size_t>& cells) {
+  double area = 0.0;
+  for (const size_t c : cells) {
+    if (skins.is_surface(c)) area += area_of(model.deck.mesh, skins.cell(c));
+  }
+  if (area == 0.0) return;
+  const auto material = model.raw.materials.find(shell.material);
+  const double density = material == model.raw.materials.end() ? 0.0 : material->second.density;
+  model.deck.notes.push_back(fmt::format(
+      "{}: {} {} gives stiffness to faces of solids{}: left out until shells are read",
+      model.source.where(shell.origin), shell.card, property,
+      shell.thickness > 0.0 ? fmt::format(", {} thick, {:.4g} of mass in the deck's units",
+                                          shell.thickness, area * shell.thickness * density)
+                            : ""));
+}
+
+}  // namespace
+
+void build_skins(Model& model) {
+  if (model.raw.skins.empty()) return;
+  Skins skins(model.deck, cells_of(model));
+  if (refuse_shells(model, skins)) return;
+  std::map<int32_t, std::vector<size_t>> groups;
+  for (size_t c = 0; c < skins.size(); ++c) groups[model.raw.skins[c].property].push_back(c);
+  for (const auto& [property, cells] : groups) {
+    const auto named = model.raw.region_names.find(property);
+    skins.add_surface(
+        named == model.raw.region_names.end() ? fmt::format("pid_{}", property) : named->second,
+        cells);
+  }
+  skins.note(model.source.where(model.raw.skins.front().origin));
+  for (const auto& [property, cells] : groups) {
+    const auto shell = model.raw.shells.find(property);
+    if (shell != model.raw.shells.end())
+      note_property(model, skins, shell->second, property, cells);
+  }
+}
+
+}  // namespace clatter::mesh::deck::nastran
