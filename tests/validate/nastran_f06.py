@@ -241,12 +241,12 @@ def compare(deck, folder):
     """Rows of a deck; one that says why there is nothing to compare, where there is nothing."""
     recipe = read_deck(deck, folder)
     why, rows = "", []
-    if "[material." not in recipe and "solids" in deck.families:
+    if not re.search(r"(?m)^\[material\.", recipe) and "solids" in deck.families:
         why = "; the deck is a mesh without materials"
     else:
         run("assembly", "a.mesh.h5", "-c", "a.fe.toml", "-o", "a.fe.h5", folder=folder)
         rows = compare_frequencies(deck, folder)
-        if "[[case]]" in recipe:
+        if re.search(r"(?m)^\[\[case\]\]", recipe):
             rows += compare_statics(deck, folder)
     return rows or [Row(deck.name, deck.families, f"printed: {deck.printed()}{why}", "", "", "", "read")]
 
