@@ -67,7 +67,7 @@ void declare_mesh(CommandLine& line) {
   MeshRequest& request = a->request;
   line.positional("part", request.input,
                   "description of the part (.mesh.toml), CAD (.step, .brep, .iges), or a deck "
-                  "(.inp, .bdf, .nas, .dat, .msh)");
+                  "(.inp, .bdf, .nas, .dat, .fem, .msh, .med, .unv, .cdb)");
   line.output("-o,--output", request.output, "mesh file to write (.mesh.h5)", true);
   line.option("--element-size-mm", request.element_size_mm,
               "element size; default: from the description, for CAD alone from its volume");
