@@ -214,7 +214,7 @@ class Generator {
     const int32_t times = keyword_.has("MULTIPLE") ? parameter("MULTIPLE") : 1;
     const Eigen::Affine3d move = keyword_.has("SHIFT") ? shift() : reflection();
     Eigen::Affine3d total = Eigen::Affine3d::Identity();
-    for (int32_t k = 1; k <= times; ++k) {
+    for (int32_t k = 1; k <= times && !old.empty(); ++k) {
       total = move * total;
       for (const int32_t id : old) {
         add_node(id + k * change, total * at(id, card_.origin()), card_.origin());
