@@ -31,7 +31,8 @@ A deck of Nastran (.bdf, .nas, .dat) or Abaqus and CalculiX (.inp) is read direc
   clatter-mesh part.bdf --units m-kg-s --ignore CQUAD4 -o part.mesh.h5
   clatter-mesh part.bdf --check            (lists all that it holds: read, passed over, refused)
   clatter-mesh part.msh --units mm-t-s -o part.mesh.h5     (Gmsh, MSH 2 or 4: groups are regions,
-                                                            surfaces and node sets)
+                                                            surfaces and node sets; .med, .unv and
+                                                            .cdb of ANSYS likewise)
 Units: m-kg-s, mm-t-s (N, MPa), mm-kg-ms (kN, GPa), mm-kg-s, cm-g-s, in-lbfs2/in-s. In a
 description: kind = "deck" with [deck] source, units, ignore.
 

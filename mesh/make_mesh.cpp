@@ -13,6 +13,7 @@
 #include "mesh/cad_alone.hpp"
 #include "mesh/deck/import.hpp"
 #include "mesh/deck/msh/reader.hpp"
+#include "mesh/deck/other_formats.hpp"
 #include "mesh/deck/recipe/text.hpp"
 #include "mesh/geometry/bare_cad.hpp"
 #include "mesh/geometry/cad_unit.hpp"
@@ -56,11 +57,12 @@ NewMesh mesh_geometry(const MeshRequest& a, const Config& config, const std::str
 NewMesh read_mesh_of_deck(const std::filesystem::path& source, const UnitSystem& units,
                           const std::vector<std::string>& ignore, const std::string& name,
                           const ChildLimits& limits, StepClock& clock) {
-  deck::Deck found = is_msh(source) ? read_msh(source, units, {ignore}, limits)
-                                    : deck::read_deck(source, units, {ignore});
+  deck::Deck found = is_mesh_file(source) ? read_mesh_file(source, units, {ignore}, limits)
+                                          : deck::read_deck(source, units, {ignore});
   clock.lap("read");
   for (const auto& [card, count] : found.ignored)
     say(fmt::format("{}: ignored {} ({} times)", source.string(), card, count));
+  if (!found.passed.empty()) say(fmt::format("{}: {}", source.string(), deck::passed_line(found)));
   found.mesh.name = name;
   NewMesh out;
   out.recipe = deck::recipe_text(found);
@@ -98,13 +100,14 @@ NewMesh mesh_bare_cad(const MeshRequest& a, StepClock& clock) {
 
 NewMesh make_any_mesh(const MeshRequest& a, StepClock& clock) {
   if (is_cad(a.input)) return mesh_bare_cad(a, clock);
-  if (deck::is_deck(a.input) || is_msh(a.input)) {
+  if (deck::is_deck(a.input) || is_mesh_file(a.input)) {
     if (a.units.empty())
       throw InputError(fmt::format("{}: found no --units, expected one (decks have no units)",
                                    a.input.string()));
     return read_mesh_of_deck(a.input, unit_system_named(a.units, "--units"), a.ignore,
                              a.input.stem().string(), a.limits, clock);
   }
+  deck::refuse_other_format(a.input);
   const Config config = Config::load(a.input);
   const std::string name = config.text("name");
   if (config.text("kind") != "deck") return mesh_geometry(a, config, name, clock);

@@ -83,7 +83,7 @@ void declare_mesh(CommandLine& line) {
   MeshRequest& request = a->request;
   line.positional("part", request.input,
                   "description of the part (.mesh.toml), CAD (.step, .brep, .iges), or a deck "
-                  "(.inp, .bdf, .nas, .dat, .msh)");
+                  "(.inp, .bdf, .nas, .dat, .fem, .msh, .med, .unv, .cdb)");
   line.output("-o,--output", request.output, "mesh file to write (.mesh.h5)");
   line.flag("--check", a->check,
             "list all that a deck holds: read, passed over, refused with its line; writes nothing");

@@ -23,7 +23,7 @@ std::string extension_of(const std::filesystem::path& path) {
 }
 
 bool is_nastran(const std::string& extension) {
-  return extension == ".bdf" || extension == ".nas" || extension == ".dat";
+  return extension == ".bdf" || extension == ".nas" || extension == ".dat" || extension == ".fem";
 }
 
 }  // namespace
@@ -37,8 +37,9 @@ Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
                const ReadOptions& options) {
   const std::string extension = extension_of(path);
   if (!is_deck(path))
-    throw InputError(fmt::format("{}: found extension '{}', expected .inp, .bdf, .nas or .dat",
-                                 path.string(), extension));
+    throw InputError(
+        fmt::format("{}: found extension '{}', expected .inp, .bdf, .nas, .dat or .fem",
+                    path.string(), extension));
   Deck deck = is_nastran(extension) ? read_nastran(path, options) : read_abaqus(path, options);
   const bool say_notes = options.contents == nullptr;  // else they are rows of the table
   finish_deck(deck, units, path.string(), say_notes);

@@ -10,7 +10,7 @@
 namespace clatter::mesh::deck {
 
 /// True for the extensions that read_deck() supports: .inp (Abaqus, CalculiX), .bdf, .nas, .dat
-/// (Nastran); any case.
+/// (Nastran), .fem (OptiStruct); any case.
 bool is_deck(const std::filesystem::path& path);
 
 /// Reads the deck in the given units, converts it, makes the surface "skin" and proves that every

@@ -313,6 +313,13 @@ void finish_couplings(Model& model) {
       if (node_index != NodeMap::kNone) rigid.dependents.push_back(node_index);
     }
   }
+  // Of rigid elements, say, that touch no solid.
+  std::erase_if(model.deck.rigid, [&](const Rigid& rigid) {
+    if (!rigid.dependents.empty()) return false;
+    model.deck.notes.push_back(fmt::format(
+        "{}: the rigid body moves no node of a solid or of a mass: left out", rigid.where));
+    return true;
+  });
 }
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -18,6 +18,7 @@ namespace {
 
 constexpr int32_t kMostNumber = std::numeric_limits<int32_t>::max();
 constexpr size_t kMostMade = size_t{1} << 24;  // of one keyword: half a gigabyte
+constexpr double kSamePlace = 1e-9;            // of a node's distance from the origin: rounding
 constexpr double kSameRadius = 1e-2;           // of a radius: both ends of an arc, in few digits
 
 // The shape of a line of *NGEN.
@@ -79,6 +80,11 @@ class Generator {
   void add_node(int64_t id, const Eigen::Vector3d& x, Origin origin) {
     if (scope_.nodes.ids.size() >= kMostMade) {
       source_.fail(origin, fmt::format("{}: makes too many nodes", keyword_.name));
+    }
+    const int32_t row = id >= 1 && id <= kMostNumber ? index_.find(static_cast<int32_t>(id)) : -1;
+    if (row >= 0 && (at(static_cast<int32_t>(id), origin) - x).norm() <= kSamePlace * x.norm()) {
+      made_.push_back(static_cast<int32_t>(id));  // the node is there already
+      return;
     }
     scope_.nodes.ids.push_back(number(id, origin));
     scope_.nodes.origins.push_back(origin);
@@ -208,7 +214,7 @@ class Generator {
     const int32_t times = keyword_.has("MULTIPLE") ? parameter("MULTIPLE") : 1;
     const Eigen::Affine3d move = keyword_.has("SHIFT") ? shift() : reflection();
     Eigen::Affine3d total = Eigen::Affine3d::Identity();
-    for (int32_t k = 1; k <= times; ++k) {
+    for (int32_t k = 1; k <= times && !old.empty(); ++k) {
       total = move * total;
       for (const int32_t id : old) {
         add_node(id + k * change, total * at(id, card_.origin()), card_.origin());

@@ -197,6 +197,7 @@ std::string Parameters::replaced(std::string_view line, const Source& source, Or
       source.fail(origin, fmt::format("found no parameter {} (*PARAMETER)", shown(name)));
     }
     out += text_of(known->second);
+    if (out.size() > kLongestLine) source.fail(origin, "parameters make the line too long");
     line.remove_prefix(close + 1);
   }
 }

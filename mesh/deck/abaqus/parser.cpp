@@ -269,6 +269,7 @@ class Parser {
     Lines::Kind kind = lines_.next();
     for (; kind == Lines::Kind::kData; kind = lines_.next())
       card.add(lines_.data(), lines_.origin());
+    if (incomplete_) return kind;  // tables have gaps
     const bool done = refusals_.attempt([&] {
       if (card.keyword().key == "SYSTEM") {
         system_ = local_system(card, source_);

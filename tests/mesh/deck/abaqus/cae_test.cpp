@@ -175,5 +175,13 @@ TEST(AbaqusRigid, TieAndPinSetsAndKinematicCouplings) {
   EXPECT_EQ(kinematic.rigid[1].reference, point(kinematic, 9));
 }
 
+TEST(AbaqusRigid, BodiesThatTouchNoSolidAreLeftOutWithANote) {
+  const Deck deck = read(kModel +
+                         "*NODE\n21, 5, 0, 0\n22, 6, 0, 0\n23, 6, 1, 0\n*ELEMENT, TYPE=R3D3, "
+                         "ELSET=TOOL\n60, 21, 22, 23\n*RIGID BODY, ELSET=TOOL, REF NODE=9\n");
+  EXPECT_TRUE(deck.rigid.empty());
+  EXPECT_THAT(deck.notes.back(), HasSubstr("deck.inp:30: the rigid body moves no node"));
+}
+
 }  // namespace
 }  // namespace clatter::mesh::deck::testing
