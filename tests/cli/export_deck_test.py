@@ -241,6 +241,29 @@ class CalculixResidual(Part):
         # 30 fixed-interface modes: the certificate's error at the sixth frequency; seven digits are printed.
         np.testing.assert_allclose(found, expected, rtol=1e-5)
 
+    def test_the_node_of_the_rotations_is_the_rot_node_of_a_rigid_body_in_the_rest(self):
+        """Two bars whose faces follow grid 900; the lower one is condensed to it."""
+        lower, upper = Bricks(range(4)), Bricks(range(5, 7))
+        centre = "*NODE\n900,5.,5.,45.\n"
+
+        def rigid(name, nodes, rotations=""):
+            return (f"*NSET,NSET={name}\n" + "".join(f"{node},\n" for node in nodes) +
+                    f"*RIGID BODY,NSET={name},REF NODE=900{rotations}\n")
+
+        whole = Bricks([*range(4), *range(5, 7)])
+        expected = self.calculix_hz("whole", whole.text() + centre + "901,5.,5.,45.\n" + Bricks.held(lower.level(0.0)) +
+                                    rigid("LOW", lower.level(40.0), ",ROT NODE=901") +
+                                    rigid("UP", upper.level(50.0), ",ROT NODE=901"), 6)
+        self.condense(lower.text() + centre + Bricks.held(lower.level(0.0)) + rigid("LOW", lower.level(40.0)) +
+                      "*STEP\n*FREQUENCY\n6\n*END STEP\n", ["point_900"], count=30)
+        self.export("super.inp")
+        head = (self.folder / "super.inp").read_text().splitlines()
+        rows = [line.split()[2:4] for line in head if "rotation of" in line]
+        self.assertEqual([component for _, component in rows], ["1", "2", "3"])
+        found = self.calculix_hz("rest", upper.text() + "*INCLUDE,INPUT=super.inp\n" +
+                                 rigid("UP", upper.level(50.0), f",ROT NODE={rows[0][0]}"), 6)
+        np.testing.assert_allclose(found, expected, rtol=1e-5)
+
     def test_new_nodes_and_elements_come_after_those_of_the_deck_or_where_they_are_told(self):
         lower = Bricks(range(4))
         self.retain(lower, lower.level(40.0))
