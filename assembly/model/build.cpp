@@ -212,6 +212,7 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
                 .surfaces = mesh.surfaces,
                 .cells = {mesh.regions, recipe.materials, mesh.cells, mesh.node_ids},
                 .mass = mass,
+                .deck = mesh.deck,
                 .load_units = std::move(loads.units)},
       .certificate = {}};
   built.certificate = certify(built.model, constrained, recipe.mass);

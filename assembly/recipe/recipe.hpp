@@ -35,6 +35,7 @@ struct Selection {
 /// [[point]]: a reference node with six DoFs of its own.
 struct PointSpec {
   ReferencePoint point;
+  int32_t number = 0;  // in the deck of the mesh; 0: none
   std::string where;
 };
 

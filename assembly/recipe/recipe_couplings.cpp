@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "assembly/recipe/recipe_reader.hpp"
 
@@ -21,8 +22,12 @@ void RecipeReader::points(Recipe& recipe) {
         table.fail("node_set", fmt::format("found {} nodes, expected one", nodes.size()));
       spec.point.node = nodes[0];
       spec.point.position = mesh_.nodes.row(nodes[0]).transpose();
+      if (!mesh_.node_ids.empty()) spec.number = mesh_.node_ids[static_cast<size_t>(nodes[0])];
     } else {
       spec.point.position = point(table, "at");
+      if (table.has("number"))
+        spec.number = static_cast<int32_t>(
+            table.integer("number", {1.0, std::numeric_limits<int32_t>::max()}));
     }
     recipe.points.push_back(spec);
   }

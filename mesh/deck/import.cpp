@@ -26,6 +26,20 @@ bool is_nastran(const std::string& extension) {
   return extension == ".bdf" || extension == ".nas" || extension == ".dat" || extension == ".fem";
 }
 
+/// The units and highest numbers of the deck; readers may have noted higher numbers of what they
+/// do not keep.
+void note_origin(Deck& deck, const UnitSystem& units) {
+  DeckOrigin& origin = deck.mesh.deck;
+  origin.units = units.name;
+  for (const int32_t id : deck.mesh.node_ids)
+    origin.largest_node = std::max(origin.largest_node, id);
+  for (const Point& point : deck.points)
+    origin.largest_node = std::max(origin.largest_node, point.id);
+  for (const CellBlock& block : deck.mesh.cells)
+    for (const int32_t id : block.ids)
+      origin.largest_element = std::max(origin.largest_element, id);
+}
+
 }  // namespace
 
 bool is_deck(const std::filesystem::path& path) {
@@ -49,9 +63,16 @@ Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
 void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where, bool say_notes) {
   if (deck.mesh.cell_count() == 0)
     throw InputError(fmt::format("{}: found no solid cells, expected some", where));
+  for (const Support& retained : deck.retained)
+    if (!retained.system.empty())
+      deck.notes.push_back(
+          fmt::format("{}: retained in system {}: coordinates are along the basic axes, and so are "
+                      "those of exports (CD 0)",
+                      retained.where, retained.system));
   if (say_notes)
     for (const std::string& note : deck.notes) warn(note);
   convert_units(deck, units);
+  note_origin(deck, units);
   deck.mesh.surfaces["skin"] = skin_of(boundary_faces(deck.mesh));
   check_structure(deck.mesh, where);
   const ValidityReport validity = check_validity(deck.mesh);

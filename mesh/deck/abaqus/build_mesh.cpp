@@ -20,6 +20,8 @@ std::vector<int32_t> take_nodes(const Numbering& numbering, Mesh& mesh) {
   }
   mesh.nodes.resize(count, 3);
   mesh.node_ids.resize(static_cast<size_t>(count));
+  mesh.deck.largest_node = numbering.highest_node();
+  mesh.deck.largest_element = numbering.highest_element();
   for (size_t row = 0; row < node.size(); ++row) {
     if (node[row] == NodeMap::kNone) continue;
     mesh.nodes.row(node[row]) = numbering.at(static_cast<int32_t>(row));

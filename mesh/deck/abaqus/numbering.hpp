@@ -58,6 +58,8 @@ class Numbering {
 
   int32_t nodes() const { return static_cast<int32_t>(node_ids_.size()); }
   const std::vector<int32_t>& node_ids() const { return node_ids_; }
+  int32_t highest_node() const { return highest_node_; }
+  int32_t highest_element() const { return highest_element_; }
   const std::vector<double>& coordinates() const { return xyz_; }
   Eigen::Vector3d at(int32_t row) const { return Eigen::Vector3d(xyz_.data() + 3 * int64_t{row}); }
   /// Row of node `id` of a use; -1 if there is none.

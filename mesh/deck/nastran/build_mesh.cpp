@@ -2,6 +2,7 @@
 // Cells and nodes: deck numbers become rows; grids without cells are skipped.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "mesh/deck/nastran/model.hpp"
@@ -78,6 +79,7 @@ void build_mesh(Model& model) {
     block.nodes.drain([&](int32_t row) { *node++ = mesh_node[static_cast<size_t>(row)]; });
     mesh.cells.push_back(std::move(cells));
   }
+  for (const int32_t id : grids.ids) mesh.deck.largest_node = std::max(mesh.deck.largest_node, id);
   mesh.nodes.resize(count, 3);
   mesh.node_ids.resize(static_cast<size_t>(count));
   for (size_t row = 0; row < grids.size(); ++row) {

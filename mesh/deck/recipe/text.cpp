@@ -155,7 +155,8 @@ class RecipeWriter {
   void points() {
     for (const Point& point : deck_.points) {
       if (point.of_bolt) continue;
-      put("\n[[point]]\nname = \"point_{}\"\nat = {}\n", point.id, toml_list(numbers(point.at)));
+      put("\n[[point]]\nname = \"point_{0}\"\nat = {1}\nnumber = {0}\n", point.id,
+          toml_list(numbers(point.at)));
     }
     for (const auto& [name, set] : names_.points_on_nodes())
       put("\n[[point]]\nname = {}\nnode_set = {}\n", toml_text(name), toml_text(set));
