@@ -2,6 +2,7 @@
 """Seconds and peak memory of processes, and the peak rate of the machine."""
 import multiprocessing
 import os
+import shutil
 import statistics
 import subprocess
 import sys
@@ -17,8 +18,14 @@ once(); print(2 * 2000**3 / statistics.median(once() for _ in range(7)))
 
 
 def run(command, folder, required=True, **environment):
-    """Standard output, wall seconds and peak megabytes of a process. If it fails the bench ends, or (required
-    False) the result is None."""
+    """Standard output, wall seconds and peak megabytes of a process. If it fails or is not installed the bench ends, or
+    (required False) the result is None."""
+    if not shutil.which(command[0]):
+        missing = f"bench: {command[0]} is not installed"
+        if required:
+            sys.exit(missing)
+        print(missing, file=sys.stderr)
+        return None
     begin = time.monotonic()
     process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, text=True,
                                env={**os.environ, **environment} if environment else None)

@@ -2,10 +2,10 @@
 # Tests that use Python's unittest.
 
 # clatter_python_test(<file without .py> <label> [class ...]) runs the file, or only the given classes;
-# the label `long` runs in `make validate` only.
+# the label `long` runs in `make validate` only. With -v the methods that it skips are in the log, for tests/tools/skipped.py.
 function(clatter_python_test file label)
   string(JOIN "_" name ${file} ${ARGN})
-  add_test(NAME ${name} COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/${file}.py ${ARGN})
+  add_test(NAME ${name} COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/${file}.py -v ${ARGN})
   if(label STREQUAL "long")
     set(seconds 5400)
   else()

@@ -2,21 +2,25 @@
 #include "core/base/blas_kernel.hpp"
 
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/printf.h>
 #include <strings.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
-#include <fstream>
+#include <cstring>
 #include <limits>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
-#include "core/base/memory_limit.hpp"
 #include "core/base/threads.hpp"
 
 namespace clatter {
@@ -74,29 +78,57 @@ bool one_thread = false;
 /// it gets none (hard case P14).
 constexpr double kBufferBytes = 128.0 * 1024.0 * 1024.0 + 65536.0;
 
+/// What a program needs at least: the buffer of one thread, and something for itself.
+constexpr double kLeastBytes = 1.1 * kBufferBytes;
+constexpr double kMib = 1024.0 * 1024.0;
+constexpr const char* kTooSmall =
+    "the limit of address space (ulimit -v) leaves %.0f MiB of memory, expected at least %.0f MiB";
+
 /// Address space that is left below the limit of the process (ulimit -v); infinite without one.
 double address_space_left() {
   rlimit limit{};
   if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
     return std::numeric_limits<double>::infinity();
-  std::ifstream file("/proc/self/statm");
-  double pages = 0.0;
-  file >> pages;
+  char text[64] = "";
+  const int file = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (file >= 0) {
+    if (::read(file, text, sizeof text - 1) < 0) text[0] = '\0';
+    ::close(file);
+  }
   return static_cast<double>(limit.rlim_cur) -
-         pages * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+         std::strtod(text, nullptr) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
 }
 
-/// Where there is no room for the buffers of all threads: OpenBLAS gets one thread, by a restart,
-/// because its other threads have begun to wait for their buffers while it was loaded.
-void avoid_waiting_threads(char** argv) {
-  constexpr const char* kThreads = "OPENBLAS_NUM_THREADS";
-  if (address_space_left() > 2.0 * kBufferBytes * thread_count()) return;
+/// Where there is no room for the buffers of all threads OpenBLAS gets one thread, by a restart,
+/// and where there is none for one buffer the program ends. OpenBLAS 0.3.29 takes all buffers in
+/// its constructor, and the threads of 0.3.21 begin to wait for theirs there, so this runs before
+/// the constructors of all libraries, with no more than the C library.
+void leave_room_for_buffers(int, char** argv, char** environment) {
+  const double left = address_space_left();
+  const double processors = static_cast<double>(::sysconf(_SC_NPROCESSORS_ONLN));
+  if (left > 2.0 * kBufferBytes * processors ||
+      dlsym(RTLD_DEFAULT, "openblas_get_corename") == nullptr)
+    return;
   one_thread = true;
-  const char* set = std::getenv(kThreads);
-  if (set != nullptr && std::string_view(set) == "1") return;
-  setenv(kThreads, "1", 1);
-  execv("/proc/self/exe", argv);
+  if (left < kLeastBytes) {
+    const char* slash = std::strrchr(argv[0], '/');
+    dprintf(STDERR_FILENO, "%s: error: ", slash == nullptr ? argv[0] : slash + 1);
+    dprintf(STDERR_FILENO, kTooSmall, std::max(left, 0.0) / kMib, kLeastBytes / kMib);
+    dprintf(STDERR_FILENO, "\n");
+    ::_exit(3);
+  }
+  static char single[] = "OPENBLAS_NUM_THREADS=1";
+  std::vector<char*> with_single{single};
+  for (char** word = environment; *word != nullptr; ++word) {
+    if (std::strcmp(*word, single) == 0) return;
+    with_single.push_back(*word);
+  }
+  with_single.push_back(nullptr);
+  execve("/proc/self/exe", argv, with_single.data());
 }
+
+[[gnu::section(".preinit_array"),
+  gnu::used]] void (*const before_libraries)(int, char**, char**) = leave_room_for_buffers;
 
 /// OpenBLAS must not change its thread count while another thread of ours uses it.
 std::mutex& section_mutex() {
@@ -109,7 +141,6 @@ std::mutex& section_mutex() {
 void ensure_fast_blas(char** argv) {
   const auto corename = find_symbol<char*()>("openblas_get_corename");
   if (corename == nullptr) return;
-  avoid_waiting_threads(argv);
   const std::string requested = requested_kernel(argv), running = corename();
   const char* set = std::getenv(kChoice);
   if (requested.empty() && set != nullptr) return;
@@ -153,10 +184,8 @@ void set_blas_threads(int count) {
 void reserve_blas_memory() {
   if (!one_thread) return;
   const double left = address_space_left();
-  if (left < 1.1 * kBufferBytes)
-    throw NumericsError(fmt::format(
-        "the limit of address space (ulimit -v) leaves {} of memory, expected at least {}",
-        memory_text(left / kBytesPerGib), memory_text(1.1 * kBufferBytes / kBytesPerGib)));
+  if (left < kLeastBytes)
+    throw NumericsError(fmt::sprintf(kTooSmall, left / kMib, kLeastBytes / kMib));
   set_thread_count(1);  // a second thread of ours in BLAS would wait for a buffer of its own
   using Factor = void(const char*, const int*, double*, const int*, int*);
   if (const auto potrf = find_symbol<Factor>("dpotrf_")) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // OpenBLAS 0.3.21 does not recognise recent CPUs and falls back to its oldest kernel, five times
-// slower.
+// slower. Where a limit of address space leaves no room for the buffers of OpenBLAS's threads, a
+// program that links this restarts itself with one of them before main, or ends with exit code 3.
 #include <mutex>
 #include <string>
 
@@ -12,9 +13,6 @@ namespace clatter {
 /// restart that fails is warned of): OpenBLAS selects its kernel while it is loaded. A kernel set
 /// in the environment is kept, unless `argv` contains "--blas NAME", or "--blas auto" for the best
 /// one. Call first in main of every stage that uses BLAS. No effect without OpenBLAS.
-///
-/// Where a limit of address space leaves no room for the buffers of its threads, the program is
-/// restarted with one thread of OpenBLAS.
 void ensure_fast_blas(char** argv);
 
 /// Logs the running kernel when --blas was given, and otherwise when the environment forces a

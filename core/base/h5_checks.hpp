@@ -78,12 +78,14 @@ inline Id checked_layout(const std::vector<hsize_t>& extents, size_t bytes_each)
   return layout;
 }
 
-/// Cause of the last HDF5 failure; call it before any other HDF5 function.
+/// Cause of the last HDF5 failure; call it before any other HDF5 function. HDF5 1.10 names the
+/// checksum of a chunk, 1.14 only the filter: the checksum is the one that artefacts have.
 inline std::string damage() {
   bool checksum = false;
   const auto look = [](unsigned, const H5E_error2_t* error, void* found) -> herr_t {
-    if (std::string_view(error->desc).find("checksum") != std::string_view::npos)
-      *static_cast<bool*>(found) = true;
+    const std::string_view text = error->desc;
+    for (const char* sign : {"checksum", "filter returned failure"})
+      if (text.find(sign) != std::string_view::npos) *static_cast<bool*>(found) = true;
     return 0;
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, look, &checksum);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -13,9 +14,9 @@ namespace clatter {
 /// The entry `name` of `map`; InputError "`owner`: no `kind` named ..., expected one of: ..." when
 /// there is none.
 template <class Map>
-const typename Map::mapped_type& find_named(const Map& map, const std::string& owner,
-                                            const std::string& kind, const std::string& name) {
-  const auto at = map.find(name);
+const typename Map::mapped_type& find_named(const Map& map, std::string_view owner,
+                                            std::string_view kind, std::string_view name) {
+  const auto at = map.find(std::string(name));
   if (at != map.end()) return at->second;
   std::vector<std::string> names;
   for (const auto& entry : map) names.push_back(entry.first);

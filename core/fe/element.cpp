@@ -61,7 +61,7 @@ Eigen::VectorXd integrate_thermal(const CellModes& modes, const CellNodes& x,
 Eigen::MatrixXd without_modes(const Eigen::MatrixXd& extended) {
   constexpr int kInner = 3 * kIncompatibleModes;
   const Eigen::Index n = extended.rows() - kInner;
-  const Eigen::Matrix<double, kInner, kInner> aa = extended.bottomRightCorner<kInner, kInner>();
+  const Eigen::MatrixXd aa = extended.bottomRightCorner(kInner, kInner);
   const Eigen::MatrixXd au = extended.bottomLeftCorner(kInner, n);
   return extended.topLeftCorner(n, n) - au.transpose() * aa.llt().solve(au);
 }

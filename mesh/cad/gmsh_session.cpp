@@ -102,7 +102,7 @@ void set_sizes(const SizeSettings& settings) {
     return found == sizes.end() ? size : std::min(size, found->second);
   };
   // Gmsh 4.8 takes the smaller of its own size and the one returned; since 4.9 it passes its own as
-  // a sixth argument, which the one returned replaces.
+  // a sixth argument, which the one returned replaces (hard case G10).
   gmsh::model::mesh::setSizeCallback(
       [local_size](int dim, int tag, double x, double y, double z, auto... own_size) {
         return std::min({local_size(dim, tag, {x, y, z}), own_size...});

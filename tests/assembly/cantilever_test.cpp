@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -115,9 +116,16 @@ std::vector<double> read_hz(const std::filesystem::path& path) {
   return hz;
 }
 
-/// CalculiX's ten lowest frequencies of the mesh, clamped at x0; empty without CalculiX.
+/// What CalculiX 2.20 finds, for systems without it: Debian 13 has no package calculix-ccx. Where
+/// it is installed, `assembly_reference_test --gtest_filter='*Calculix*'` prints each that differs.
+constexpr std::array<double, 10> kStoredHz = {105.2561, 157.3064, 652.4152, 961.3403, 1735.973,
+                                              1796.645, 2593.820, 3251.956, 3441.522, 4842.731};
+
+/// CalculiX's ten lowest frequencies of the mesh, clamped at x0; the stored ones without CalculiX.
 std::vector<double> calculix_hz(const mesh::Mesh& mesh) {
-  if (std::system("command -v ccx > /dev/null 2>&1") != 0) return {};
+  const char* installed =
+      "test -z \"$CLATTER_WITHOUT_CALCULIX\" && command -v ccx > /dev/null 2>&1";
+  if (std::system(installed) != 0) return {kStoredHz.begin(), kStoredHz.end()};
   const std::filesystem::path folder = test::scratch_path("ccx");
   std::filesystem::create_directories(folder);
   mesh::Mesh clamped = mesh;
@@ -129,7 +137,9 @@ std::vector<double> calculix_hz(const mesh::Mesh& mesh) {
   EXPECT_EQ(std::system(command.c_str()), 0);
   const std::vector<double> hz = read_hz(folder / "modes.dat");
   std::filesystem::remove_all(folder);
-  EXPECT_EQ(hz.size(), 10u);
+  EXPECT_EQ(hz.size(), kStoredHz.size());
+  for (size_t k = 0; k < hz.size(); ++k)
+    EXPECT_NEAR(hz[k] / kStoredHz.at(k), 1.0, 1.01e-6) << "CalculiX finds " << hz[k] << " Hz";
   return hz;
 }
 
@@ -161,7 +171,6 @@ SparseMatrix four_point_mass(const mesh::Mesh& mesh, const fe::FeModel& model) {
 TEST(Cantilever, FrequenciesAreThoseOfCalculixOnTheExportedMesh) {
   const mesh::Mesh mesh = beam({20, 3, 2});
   const std::vector<double> theirs = calculix_hz(mesh);
-  if (theirs.empty()) GTEST_SKIP() << "ccx not found: package calculix-ccx";
   const fe::FeModel model = clamped(mesh, "0.3");
   const Eigen::VectorXd ours = lowest_hz(model.K, model.M, 10);
   const Eigen::VectorXd alike = lowest_hz(model.K, four_point_mass(mesh, model), 10);

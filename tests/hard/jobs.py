@@ -67,7 +67,7 @@ def registered(test):
     script = next((at for at, word in enumerate(command) if word.endswith("_test.py")), None)
     if script is None:
         return None
-    classes = command[script + 1:]
+    classes = [word for word in command[script + 1:] if not word.startswith("-")]
     names = [name for name in repository.python_tests(pathlib.Path(command[script]).read_text())
              if not classes or name[0] in classes]
     return Registered(tuple(command[:script + 1]), tuple(names), None, *common)

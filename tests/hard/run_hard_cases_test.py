@@ -118,7 +118,7 @@ class Jobs(unittest.TestCase):
         with tempfile.TemporaryDirectory() as scratch:
             script = pathlib.Path(scratch) / "some_test.py"
             script.write_text("class HardA1:\n    def test_x(self): pass\n    def test_y(self): pass\nclass Late:\n    def test_z(self): pass\n")
-            listed = [{"name": "x", "command": ["/usr/bin/python3", "-B", str(script), "HardA1"],
+            listed = [{"name": "x", "command": ["/usr/bin/python3", "-B", str(script), "-v", "HardA1"],
                        "properties": [{"name": "ENVIRONMENT", "value": ["A=b"]}]}]
             registered = [jobs.registered(one) for one in listed]
         found, missing = jobs.jobs_of(("HardA1.test_y", "Late"), registered)

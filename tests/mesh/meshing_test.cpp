@@ -330,7 +330,7 @@ TEST(Mesher, ElementsPerTurnOnOneSurfaceRefineThatBoreOnly) {
 
 // Cells whose centre lies within 6 mm of the bore: their mean edge follows size + growth *
 // distance.
-TEST(Mesher, GrowthIsTheRateOfCoarseningAwayFromASurface) {
+TEST(Mesher, HardG10_GrowthIsTheRateOfCoarseningAwayFromASurface) {
   const auto count = [](double growth) {
     return mesh_toml(kTube +
                      ("[[mesh.local]]\nsurface = 'inner'\nelements_per_turn = 16\ngrowth = " +

@@ -18,10 +18,10 @@ using fe::FeModel;
 using testing::bar;
 using testing::kSlide;
 
-const StaticCase& one(const StaticSolution& solution, const std::string& name) {
+const StaticCase& one(const StaticSolution& solution, std::string_view name) {
   for (const StaticCase& found : solution.cases)
     if (found.name == name) return found;
-  throw std::runtime_error("no case " + name);
+  throw std::runtime_error("no case " + std::string(name));
 }
 
 TEST(Statics, AStretchedBarIsHookesLawAndItsReactionsBalance) {

@@ -100,7 +100,7 @@ class HardP14AddressSpace(hard_pipeline.HardPipeline):
     def test_every_limit_gives_the_result_or_one_line_and_no_stage_waits_for_memory(self):
         ended = {}
         for stage, arguments in COMMANDS.items():
-            for mib in (100, 140, 200, 240, 280):
+            for mib in (100, 140, 200, 240, 280, 340, 400, 600):
                 with self.subTest(stage=stage, mib=mib):
                     done = stages.run_stage(stage, *arguments, "-o", "short.h5", "--quiet", folder=self.folder,
                                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (mib << 20, mib << 20)))
@@ -115,6 +115,8 @@ class HardP14AddressSpace(hard_pipeline.HardPipeline):
                         for path in self.folder.glob("short.*"):
                             path.unlink()
                         break
+            else:
+                self.fail(f"{stage} has no result with {mib} MiB")
         observed("exit codes " + ", ".join(f"{code}: {count} times" for code, count in sorted(ended.items())))
         expect_at_most(self, "runs that ended by a signal", sum(count for code, count in ended.items() if code < 0), 0)
         self.assertGreater(ended.get(3, 0), 0)

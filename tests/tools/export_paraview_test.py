@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter export` for ParaView: .pvd and .vtu as VTK and meshio read them."""
+import base64
 import pathlib
+import re
 import tempfile
 import unittest
+import unittest.mock
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -85,6 +88,13 @@ class ParaView(Exported):
 
 @unittest.skipIf(meshio is None, "meshio (package python3-meshio) is not installed")
 class Meshio(Exported):
+    def setUp(self):
+        """meshio 5.3 decodes from the beginning of an array to the end of the file and relies on Python up to 3.12, which stops at the first padding."""
+        decode = base64.b64decode
+        patch = unittest.mock.patch.object(base64, "b64decode", lambda text, *rest: decode(re.match("[^=]*={0,2}", text)[0], *rest))
+        patch.start()
+        self.addCleanup(patch.stop)
+
     def test_meshio_reads_the_same_numbers(self):
         ball.export(self.folder, "-o", "m.pvd", "--at", "250")
         mesh = meshio.read(self.folder / "m_1.vtu")

@@ -65,6 +65,10 @@ CASES = [
     ("segststate", "first step: cyclic symmetry, seven nodal diameters", ROUNDED, RING),
 ]
 
+# References that a later version of package calculix-ccx-test replaced by others: a number of the new one, and why it is not compared.
+CHANGED = {
+    "dloadlinIf": ("0.9586253E+01", "the reference of CalculiX 2.22 (and what 2.20 finds) has incompatible modes with mass, which clatter's have not"),
+}
 # Why decks are refused: a deck counts once, for the first row that matches one of its errors.
 CAUSES = [
     ("networks of fluids, fluid cells", r"element type (D|F3D\w*) "),
@@ -95,8 +99,8 @@ SECTORS = 12  # of each of them
 # Texts of decks that are replaced for both programs.
 FULL = "as C3D20: with C3D20R its bars of single cells are mechanisms, which clatter refuses"
 REPLACED = {"pret1": ("TYPE=C3D20R", "TYPE=C3D20")}
-# The same, compared with the installed ccx.
-INSTALLED = [
+# The same, compared with ccx or with what is stored of its results.
+SOLVED = [
     ("mpcforce", "equations across two materials", PRINTED, ""),
     ("pret1", "pre-tension of a bolt", PRINTED, FULL),
     ("segmentm", "transform, equations", PRINTED, ""),

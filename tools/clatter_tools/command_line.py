@@ -10,6 +10,7 @@ import sys
 
 from . import collect, drive_command, export_command, fired_cycle, info, levels, motored_cycle, predict, report, slaps, sweep
 from .artefact import BadArtefact, CannotWrite
+from .integrity import is_damage
 from .study import command as study
 from .study.run import Failed
 
@@ -188,7 +189,7 @@ def run_command(options, rules):
         if isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EFBIG, errno.EDQUOT):  # of files: CannotWrite
             print(f"clatter: error: standard output: cannot be written: {error.strerror}", file=sys.stderr)
             return 4
-        if "checksum" not in str(error):
+        if not is_damage(error):
             raise
         print(f"clatter: error: a file was damaged after it was written (clatter info --verify names the dataset): {error}",
               file=sys.stderr)

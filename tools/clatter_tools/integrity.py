@@ -5,6 +5,7 @@ import h5py
 from .artefact import BadArtefact
 
 UNREADABLE = (OSError, RuntimeError, KeyError)  # raised by h5py on a failed read
+CHECKSUM_SIGNS = ("checksum", "filter returned failure")  # HDF5 1.10 names the checksum of a chunk, 1.14 only the filter
 SHOWN = 5
 
 
@@ -28,6 +29,11 @@ def objects(group, damaged):
             yield item.name, item
         else:
             yield from objects(item, damaged)
+
+
+def is_damage(error):
+    """Whether an exception of h5py is a wrong checksum."""
+    return any(sign in str(error) for sign in CHECKSUM_SIGNS)
 
 
 def has_checksum(dataset):
