@@ -67,13 +67,15 @@ void declare_mesh(CommandLine& line) {
   MeshRequest& request = a->request;
   line.positional("part", request.input,
                   "description of the part (.mesh.toml), CAD (.step, .brep, .iges), or a deck "
-                  "(.inp, .bdf, .nas, .dat, .msh)");
+                  "(.inp, .bdf, .nas, .dat, .fem, .msh)");
   line.output("-o,--output", request.output, "mesh file to write (.mesh.h5)", true);
   line.option("--element-size-mm", request.element_size_mm,
               "element size; default: from the description, for CAD alone from its volume");
   line.option("--units", request.units, "units of a deck: mm-t-s, m-kg-s, ... (see below)");
   line.option("--ignore", request.ignore,
               "card, keyword, element kind or group of a deck to skip; may be repeated");
+  line.option("--mass", request.mass,
+              "mass matrix in the recipe of a deck: as in the deck (default), consistent, lumped");
   line.output("--recipe", a->recipe,
               "also write materials, couplings, supports and loads of a deck (.fe.toml)");
   line.option("--parts", a->parts, "also divide the cells into this many connected parts (METIS)");

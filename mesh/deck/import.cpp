@@ -10,6 +10,7 @@
 #include "core/base/log.hpp"
 #include "core/mesh/boundary.hpp"
 #include "mesh/deck/abaqus/reader.hpp"
+#include "mesh/deck/cell_repair.hpp"
 #include "mesh/deck/nastran/reader.hpp"
 
 namespace clatter::mesh::deck {
@@ -23,7 +24,7 @@ std::string extension_of(const std::filesystem::path& path) {
 }
 
 bool is_nastran(const std::string& extension) {
-  return extension == ".bdf" || extension == ".nas" || extension == ".dat";
+  return extension == ".bdf" || extension == ".nas" || extension == ".dat" || extension == ".fem";
 }
 
 }  // namespace
@@ -37,16 +38,27 @@ Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
                const ReadOptions& options) {
   const std::string extension = extension_of(path);
   if (!is_deck(path))
-    throw InputError(fmt::format("{}: found extension '{}', expected .inp, .bdf, .nas or .dat",
-                                 path.string(), extension));
+    throw InputError(
+        fmt::format("{}: found extension '{}', expected .inp, .bdf, .nas, .dat or .fem",
+                    path.string(), extension));
   Deck deck = is_nastran(extension) ? read_nastran(path, options) : read_abaqus(path, options);
+  if (options.mass) {
+    deck.mass = *options.mass;
+  } else if (deck.mass == MassForm::kLumped) {
+    deck.notes.push_back(
+        fmt::format("{}: lumped mass of the cells, as the deck's program makes it; --mass "
+                    "consistent changes it",
+                    path.string()));
+  }
   finish_deck(deck, units, path.string());
   return deck;
 }
 
 void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where) {
-  if (deck.mesh.cell_count() == 0)
-    throw InputError(fmt::format("{}: found no solid cells, expected some", where));
+  if (deck.mesh.cell_count() == 0 && deck.springs.empty() && deck.matrices.empty())
+    throw InputError(fmt::format("{}: found no solid cells and no springs, expected some", where));
+  for (const std::string& done : repair_cells(deck.mesh, where))
+    deck.notes.push_back(fmt::format("{}: {}", where, done));
   for (const std::string& note : deck.notes) warn(note);
   convert_units(deck, units);
   deck.mesh.surfaces["skin"] = skin_of(boundary_faces(deck.mesh));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 
 #include "mesh/deck/nastran/fields.hpp"
@@ -18,7 +19,7 @@ constexpr std::array<std::string_view, 23> kHarmlessExecutive = {
     "ECHOOFF",   "ECHOON", "GEOMCHECK",    "ID",   "INIT",    "LABEL",  "MODEL_CHECK",  "NASTRAN",
     "RFINCLUDE", "SOL",    "SPARSESOLVER", "TIME", "VERSION", "EXPAND", "DBSETDEL"};
 
-constexpr std::array<std::string_view, 68> kHarmlessCase = {
+constexpr std::array<std::string_view, 69> kHarmlessCase = {
     "ACCELERATION", "ACFPMRESULT",  "ANALYSIS", "AUTOSPC",     "BCRESULTS",     "BGRESULTS",
     "BOUTPUT",      "DISPLACEMENT", "ECHO",     "ECHOOFF",     "ECHOON",        "EDE",
     "EKE",          "ELFORCE",      "ELSDCON",  "ELSTRAIN",    "ELSTRESS",      "ELSUM",
@@ -30,7 +31,23 @@ constexpr std::array<std::string_view, 68> kHarmlessCase = {
     "SET",          "SHELLTHK",     "SKIP",     "SPCFORCES",   "STRAIN",        "STRESS",
     "STRFIELD",     "SUBTITLE",     "SURFACE",  "SVECTOR",     "SVELOCITY",     "THERMAL",
     "TITLE",        "VECTOR",       "VELOCITY", "VOLUME",      "VUGRID",        "WEIGHTCHECK",
-    "XTITLE",       "YTITLE"};
+    "XTITLE",       "YTITLE",       "STRESSES"};
+
+// Without effect on stiffness and mass, and counted.
+constexpr std::array<std::string_view, 44> kPassedCase = {
+    "AUXMODEL",    "B2GG",    "B2PP",   "BUCKLING",   "CMETHOD",  "DESGLB",    "DESOBJ",
+    "DESSUB",      "DESVAR",  "DLOAD",  "DRSPAN",     "EXTSEOUT", "FREQUENCY", "IC",
+    "K42GG",       "LOADSET", "MFLUID", "MODESELECT", "NLPARM",   "NLSTEP",    "NONLINEAR",
+    "OFREQUENCY",  "OTIME",   "RANDOM", "REPCASE",    "RGYRO",    "RSMETHOD",  "SDAMPING",
+    "SEALL",       "SEDR",    "SEDV",   "SEEXCLUDE",  "SEFINAL",  "SEKREDUCE", "SELGENERATE",
+    "SEMGENERATE", "STATSUB", "SUBCOM", "SUBSEQ",     "SUPER",    "SUPORT1",   "TSTEP",
+    "TSTEPNL",     "VARIABLE"};
+
+// OptiStruct's lines before and within the case control.
+constexpr std::array<std::string_view, 23> kOptiStruct = {
+    "ANALYSIS", "CHECK",       "DGLOBAL", "FORMAT", "H3D",   "HISOUT",     "LISTMEM", "LOADLIB",
+    "MSGLMT",   "OSTDIST",     "OUTFILE", "OUTPUT", "PRINT", "RESPRINT",   "RESTART", "RESULTS",
+    "SCREEN",   "SENSITIVITY", "SENSOUT", "SHAPE",  "SHRES", "SYSSETTING", "TMPDIR"};
 
 // NAME(OPTIONS) = VALUE, in capitals.
 struct Command {
@@ -91,7 +108,7 @@ class ControlParser {
         source_.unread();
         return {};
       }
-      if (command.name == "BEGIN") {
+      if (command.name == "BEGIN" || command.name == "BEGIN_BULK") {
         begin_bulk(command);
         return finish();
       }
@@ -119,14 +136,16 @@ class ControlParser {
                                      command.name) != kHarmlessExecutive.end();
     if (executive && !(command.assigned && command.name.starts_with("ECHO"))) {
       part_ = Part::kExecutive;
-    } else if (command.assigned || command.name == "SUBCASE" || command.name == "TITLE") {
+    } else if (command.assigned || command.name == "SUBCASE" || command.name == "TITLE" ||
+               std::find(kOptiStruct.begin(), kOptiStruct.end(), command.name) !=
+                   kOptiStruct.end()) {
       part_ = Part::kCase;
     }
-    return part_ != Part::kUnknown || command.name == "BEGIN";
+    return part_ != Part::kUnknown || command.name.starts_with("BEGIN");
   }
 
   void begin_bulk(const Command& command) {
-    if (command.value.empty() || command.value == "BULK") return;
+    if (command.value.empty() || command.value.starts_with("BULK")) return;
     source_.fail(source_.origin(),
                  fmt::format("found BEGIN {}, expected BEGIN BULK", shown(command.value)));
   }
@@ -165,9 +184,13 @@ class ControlParser {
       read_parameter(control_, text.substr(0, gap), text.substr(value), source_, source_.origin());
     } else if (!choose(command)) {
       if (is(command.name, "OUTPUT"))
-        plots_ = has_option(command, "PLOT") || has_option(command, "XYOUT");
+        plots_ = has_option(command, "PLOT") || has_option(command, "XY");
       if (command.name == "SET") skip_list(line);
-      if (!is_one_of(command.name, kHarmlessCase)) refuse(command.name, "case control command");
+      if (is_one_of(command.name, kPassedCase)) {
+        ++control_.passed[command.name];
+      } else if (!is_one_of(command.name, kHarmlessCase) && !is_one_of(command.name, kOptiStruct)) {
+        refuse(command.name, "case control command");
+      }
     }
   }
 
@@ -180,13 +203,50 @@ class ControlParser {
     } else if (command.name == "LOAD") {
       choice.load = set_number(command);
     } else if (is(command.name, "METHOD")) {
-      choice.method = set_number(command);
+      if (!has_option(command, "FLUID")) choice.method = set_number(command);
+    } else if (command.name == "BGSET") {
+      control_.glue = set_number(command);
+    } else if (command.name == "K2GG" || command.name == "K2PP") {
+      add_direct(command, control_.direct_stiffness);
+    } else if (command.name == "M2GG" || command.name == "M2PP") {
+      add_direct(command, control_.direct_mass);
+    } else if (is(command.name, "ANALYSIS") && command.value.starts_with("STAT")) {
+      choice.analysis = 101;
+    } else if (is(command.name, "ANALYSIS") && command.value.starts_with("MODE")) {
+      choice.analysis = 103;
     } else if (is(command.name, "TEMPERATURE")) {
       temperature(command, choice);
     } else {
       return false;
     }
     return true;
+  }
+
+  // NAME, or 0.5*NAME, 2.*OTHER.
+  void add_direct(const Command& command, std::map<std::string, double>& names) {
+    std::string_view rest = command.value;
+    while (!rest.empty()) {
+      const size_t comma = std::min(rest.find(','), rest.size());
+      std::string_view name = trimmed(rest.substr(0, comma));
+      rest = rest.substr(std::min(comma + 1, rest.size()));
+      double factor = 1.0;
+      if (const size_t star = name.find('*'); star != std::string_view::npos) {
+        const auto number = to_number(trimmed(name.substr(0, star)));
+        if (!number) refuse_direct(command);
+        factor = *number;
+        name = trimmed(name.substr(star + 1));
+      }
+      if (name.empty() || name.find_first_of("() ") != std::string_view::npos)
+        refuse_direct(command);
+      names[std::string(name)] += factor;
+    }
+  }
+
+  [[noreturn]] void refuse_direct(const Command& command) {
+    source_.fail(
+        source_.origin(),
+        fmt::format("{}: found {}, expected names of DMIG, each with a real factor or none",
+                    command.name, shown(command.value)));
   }
 
   void temperature(const Command& command, Choice& choice) {
@@ -251,13 +311,28 @@ Control read_control(Source& source, Ignore& ignore, Refusals& refusals) {
 
 void read_parameter(Control& control, std::string_view name, std::string_view value,
                     const Source& source, Origin origin) {
-  if (name != "WTMASS") return;
-  const auto factor = to_number(value);
-  if (!factor || !(*factor > 0.0)) {
-    source.fail(origin,
-                fmt::format("PARAM WTMASS: found {}, expected a positive number", shown(value)));
+  const auto number = [&] {
+    const auto found = to_number(value);
+    if (!found)
+      source.fail(origin, fmt::format("PARAM {}: found {}, expected a number", name, shown(value)));
+    return *found;
+  };
+  if (name == "WTMASS") {
+    const auto factor = to_number(value);
+    if (!factor || !(*factor > 0.0)) {
+      source.fail(origin,
+                  fmt::format("PARAM WTMASS: found {}, expected a positive number", shown(value)));
+    }
+    control.mass_factor = *factor;
+  } else if (name == "COUPMASS") {
+    control.coupled_mass = number() > 0.0;
+  } else if (name == "CK2") {
+    control.direct_stiffness_factor = number();
+  } else if (name == "CM2") {
+    control.direct_mass_factor = number();
+  } else if (name == "INREL") {
+    control.inertia_relief = number() != 0.0;
   }
-  control.mass_factor = *factor;
 }
 
 }  // namespace clatter::mesh::deck::nastran

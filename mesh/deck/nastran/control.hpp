@@ -2,10 +2,12 @@
 #pragma once
 // Executive and case control, before BEGIN BULK.
 //
-// Read: SOL, SUBCASE, SPC, MPC, LOAD, TEMPERATURE, METHOD, PARAM. Requests for output, titles and
-// other commands that do not change the model are skipped silently (harmless_* in control.cpp);
-// anything else is refused by name unless the user ignores it.
+// Read: SOL, SUBCASE, SPC, MPC, LOAD, TEMPERATURE, METHOD, ANALYSIS, BGSET, K2GG, M2GG, PARAM.
+// Requests for output and titles are skipped silently (kHarmless* in control.cpp), other commands
+// that do not change the model are counted (kPassedCase); anything else is refused by name unless
+// the user ignores it.
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,7 @@ namespace clatter::mesh::deck::nastran {
 /// Sets that a subcase selects; 0: none.
 struct Choice {
   int32_t spc = 0, mpc = 0, load = 0, temperature = 0, method = 0;
+  int32_t analysis = 0;  // ANALYSIS: 101 statics, 103 modes; 0: as SOL says
 };
 
 struct Subcase {
@@ -30,14 +33,21 @@ struct Control {
   bool has_cases = false;  // there is a case control: it alone selects sets
   int32_t solution = 0;    // SOL; 0: not given
   int32_t initial_temperature = 0;
-  double mass_factor = 1.0;       // PARAM, WTMASS
-  std::vector<Subcase> subcases;  // one at least when has_cases
+  int32_t glue = 0;                                // BGSET
+  std::map<std::string, double> direct_stiffness;  // K2GG, K2PP: factors by name of DMIG
+  std::map<std::string, double> direct_mass;       // M2GG, M2PP
+  double direct_stiffness_factor = 1.0, direct_mass_factor = 1.0;  // PARAM, CK2 and CM2
+  double mass_factor = 1.0;                                        // PARAM, WTMASS
+  bool coupled_mass = false;                                       // PARAM, COUPMASS
+  bool inertia_relief = false;                                     // PARAM, INREL
+  std::map<std::string, int64_t> passed;  // commands without effect, with counts
+  std::vector<Subcase> subcases;          // one at least when has_cases
 };
 
 /// Reads up to and including BEGIN BULK; reads nothing when the deck begins with bulk data.
 Control read_control(Source& source, Ignore& ignore, Refusals& refusals);
 
-/// Applies a PARAM; parameters other than WTMASS are skipped.
+/// Applies a PARAM; those that change neither stiffness nor mass are skipped.
 void read_parameter(Control& control, std::string_view name, std::string_view value,
                     const Source& source, Origin origin);
 

@@ -168,14 +168,24 @@ void read_cell(const Card& card, RawDeck& raw) {
     const bool middle = static_cast<int>(i) >= cell.corners;
     if (middle && !has_node(card, kFirstNode + i)) continue;  // complete_cells() adds it
     const int32_t node = card.id(kFirstNode + i, "G");
-    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) {
-      card.fail(kFirstNode + i, fmt::format("cell {}: found node {} twice", id, node));
-    }
     nodes[static_cast<size_t>(cell.to_nastran[i])] = node;
   }
   for (int i = 0; i < cell.nodes; ++i) block.nodes.push_back(nodes[static_cast<size_t>(i)]);
   block.ids.push_back(id);
   block.origins.push_back(card.origin());
+}
+
+// Corners only: mid-side nodes are those of the solid's face.
+void read_skin(const Card& card, RawDeck& raw) {
+  const FaceType type = card.name().starts_with("CQUAD") ? FaceType::kQuad4 : FaceType::kTri3;
+  const int32_t id = card.id(0, "EID"), property = card.id_or(1, "PID", id);
+  const auto [index, fresh] =
+      raw.skin_index.try_emplace({std::string(card.name()), property}, raw.skins.size());
+  if (fresh) raw.skins.push_back({type, std::string(card.name()), property, {}, {}, card.origin()});
+  RawSkins* at = &raw.skins[index->second];
+  at->ids.push_back(id);
+  for (int i = 0; i < traits(type).corners; ++i)
+    at->corners.push_back(card.id(kFirstNode + static_cast<size_t>(i), "G"));
 }
 
 }  // namespace clatter::mesh::deck::nastran

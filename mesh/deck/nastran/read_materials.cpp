@@ -63,4 +63,18 @@ void read_mat9(const Card& card, RawDeck& raw) {
   add_material(card, raw, material);
 }
 
+void read_pshell(const Card& card, RawDeck& raw) {
+  const int32_t id = card.id(0, "PID");
+  raw.shells[id] = {card.origin(), card.id_or(1, "MID1", 0), card.number_or(2, "T", 0.0)};
+  raw.other_properties[id] = card.name();
+}
+
+void read_other_property(const Card& card, RawDeck& raw) {
+  raw.other_properties[card.id(0, "PID")] = card.name();
+}
+
+void read_other_material(const Card& card, RawDeck& raw) {
+  raw.other_materials[card.id(0, "MID")] = card.name();
+}
+
 }  // namespace clatter::mesh::deck::nastran

@@ -22,18 +22,27 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   model.deck.mesh.name = name;
   model.deck.notes = std::move(notes);
   refusals.require([&] { build_mesh(model); });
+  build_skins(model, ignore);
   build_couplings(model);
+  build_links(model);
   build_masses(model);
   build_equations(model);
   build_springs(model);
+  build_bushes(model);
+  build_matrices(model);
   refusals.attempt([&] { build_supports(model); });
   build_sets(model);
   build_surfaces(model);
+  build_glue(model);
   build_initial_temperature(model);
   build_steps(model);
+  drop_loose(model, ignore);
   refusals.raise();
   model.deck.ignored = ignore.counted();
   count_unused(model);
+  note_solution(model);
+  choose_mass(model);
+  note_passed(model);
   model.deck.files = source.files();
   return std::move(model.deck);
 }
