@@ -42,7 +42,8 @@ struct Counterpart {
 
 constexpr const char* kShear =
     "has no counterpart for the reduced shear strains of Nastran; the nearest is";
-constexpr const char* kBubble = "has incompatible modes for Nastran's bubble functions:";
+constexpr const char* kBubble =
+    "has no counterpart for the bubble functions of Nastran; the nearest is";
 // What comes nearest to an IN and ISOP. Tetrahedra: their points differ, their stiffness does not.
 //   IN       ISOP     cells of corners               quadratic cells
 //   BUBBLE   REDUCED  2 points, reduced shear,       (IN 0: as THREE)
