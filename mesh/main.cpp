@@ -26,7 +26,7 @@ constexpr const char* kEpilog =
   [surface.clamp]                 # surfaces by position; filters combine
   plane = { normal = [1, 0, 0], height = 0.0 }
 
-A deck of Nastran (.bdf, .nas, .dat) or Abaqus and CalculiX (.inp) is read directly; --recipe writes its materials, couplings, supports and loads to the fe.toml of the next stage:
+A deck of Nastran (.bdf, .nas, .dat, .fem) or Abaqus and CalculiX (.inp) is read directly; --recipe writes its materials, couplings, supports and loads to the fe.toml of the next stage:
   clatter-mesh part.inp --units mm-t-s -o part.mesh.h5 --recipe part.fe.toml
   clatter-mesh part.bdf --units m-kg-s --ignore CQUAD4 -o part.mesh.h5
   clatter-mesh part.bdf --check            (lists all that it holds: read, passed over, refused)

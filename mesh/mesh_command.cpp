@@ -92,6 +92,8 @@ void declare_mesh(CommandLine& line) {
   line.option("--units", request.units, "units of a deck: mm-t-s, m-kg-s, ... (see below)");
   line.option("--ignore", request.ignore,
               "card, keyword, element kind or group of a deck to skip; may be repeated");
+  line.option("--mass", request.mass,
+              "mass matrix in the recipe of a deck: as in the deck (default), consistent, lumped");
   line.output("--recipe", a->recipe,
               "also write materials, couplings, supports and loads of a deck (.fe.toml)");
   line.option("--parts", a->parts, "also divide the cells into this many connected parts (METIS)");

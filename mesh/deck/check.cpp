@@ -89,21 +89,23 @@ void add_remarks(const Deck& deck, std::vector<CheckedRow>& rows) {
     });
     if (!listed) rows.push_back({count, "", name, "left out", "", ""});
   }
-  for (const auto& [name, count] : deck.passed)
-    for (CheckedRow& row : rows)
-      if (row.name == name && row.fate == "read") row.fate = name_of(Fate::kPassed);
+  for (const std::string& done : deck.renumbered)
+    rows.push_back({1, "", "", "renumbered", "", done});
   for (const std::string& note : deck.notes) {
     const auto [where, text] = divided(note);
     rows.push_back({1, "", "", "noted", where, text});
   }
 }
 
-// Positions in the folder of the deck are written without it.
+// Positions in the folder of the deck are written without it, remarks on all of it without its
+// name.
 void shorten(const std::filesystem::path& deck, CheckedRow& row) {
-  const std::string folder = deck.parent_path().string() + "/";
+  const std::string folder = deck.parent_path().string() + "/", name = deck.filename().string();
   for (std::string* text : {&row.where, &row.remark})
-    for (size_t at = text->find(folder); at != std::string::npos; at = text->find(folder, at))
+    for (size_t at = deck.has_parent_path() ? text->find(folder) : std::string::npos;
+         at != std::string::npos; at = text->find(folder, at))
       text->erase(at, folder.size());
+  if (row.remark.starts_with(name + ": ")) row.remark.erase(0, name.size() + 2);
 }
 
 }  // namespace
@@ -113,7 +115,8 @@ CheckedDeck check_deck(const std::filesystem::path& path, const std::vector<std:
   CheckedDeck checked;
   try {
     // Only the proofs depend on units, and not on which.
-    const Deck deck = read_deck(path, unit_system_named("m-kg-s", "units"), {ignore, &contents});
+    const Deck deck =
+        read_deck(path, unit_system_named("m-kg-s", "units"), {ignore, std::nullopt, &contents});
     checked.rows = rows_of(contents);
     add_remarks(deck, checked.rows);
     checked.summary = summary_of(deck);
@@ -125,8 +128,7 @@ CheckedDeck check_deck(const std::filesystem::path& path, const std::vector<std:
     const auto [where, text] = divided(error.what());
     checked.rows.push_back({1, "", "", "refused", where, text});
   }
-  if (path.has_parent_path())
-    for (CheckedRow& row : checked.rows) shorten(path, row);
+  for (CheckedRow& row : checked.rows) shorten(path, row);
   checked.refused = std::count_if(checked.rows.begin(), checked.rows.end(),
                                   [](const CheckedRow& row) { return row.fate == "refused"; });
   return checked;

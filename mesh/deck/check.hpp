@@ -14,7 +14,7 @@ namespace clatter::mesh::deck {
 struct CheckedRow {
   int64_t count = 0;
   std::string kind, name;  // "card", "CHEXA"; empty for messages
-  std::string fate;        // read, passed over, ignored, refused, noted
+  std::string fate;        // read, passed over, ignored, refused, renumbered, noted
   std::string where;       // "deck.bdf:12", the first position; empty where there is none
   std::string remark;      // what it becomes, what the reader says, or what to write instead
 };

@@ -2,6 +2,9 @@
 #include "mesh/deck/contents.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
 
 namespace clatter::mesh::deck {
 
@@ -18,6 +21,27 @@ Content& Contents::count(std::string_view kind, std::string_view name, const Lin
   }
   last_->count += times;
   return *last_;
+}
+
+void Contents::pass(std::string_view kind, std::string_view name, const LineSource& source,
+                    Origin origin, std::string_view why, int64_t times) {
+  Content& content = count(kind, name, source, origin, times);
+  content.fate = Fate::kPassed;
+  content.meaning = why;
+}
+
+std::string Contents::passed_line() const {
+  std::map<std::string_view, std::vector<std::string>> by_reason;
+  for (const Content& one : rows_)
+    if (one.fate == Fate::kPassed)
+      by_reason[one.meaning.empty() ? one.kind : one.meaning].push_back(
+          one.count == 1 ? one.name : fmt::format("{} ({})", one.name, one.count));
+  std::vector<std::string> parts;
+  for (const auto& [reason, names] : by_reason)
+    parts.push_back(fmt::format("{}: {}", reason, fmt::join(names, ", ")));
+  if (parts.empty()) return {};
+  return fmt::format("passed over, since neither stiffness nor mass depends on it: {}",
+                     fmt::join(parts, "; "));
 }
 
 }  // namespace clatter::mesh::deck

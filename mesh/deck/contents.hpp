@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a deck holds and what its reader did with it, for `clatter-mesh --check` (check.hpp).
+// What a deck holds and what its reader did with it: for `clatter-mesh --check` (check.hpp), and
+// for the line of a run that names what is passed over.
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -27,7 +28,7 @@ struct Content {
   std::string kind;  // "card", "keyword", "element", "case control", ...
   std::string name;
   Fate fate = Fate::kRead;
-  std::string_view meaning;  // of the reader's table: what it becomes, or what it is
+  std::string_view meaning;  // of the reader's table: what it becomes, or why it is passed over
   int64_t count = 0;
   std::string first;  // "deck.bdf:12"
 };
@@ -39,7 +40,13 @@ class Contents {
   /// name cost a comparison.
   Content& count(std::string_view kind, std::string_view name, const LineSource& source,
                  Origin origin, int64_t times = 1);
+  /// Counts what is passed over, and why.
+  void pass(std::string_view kind, std::string_view name, const LineSource& source, Origin origin,
+            std::string_view why, int64_t times = 1);
   const std::deque<Content>& rows() const { return rows_; }
+  /// "passed over, since neither stiffness nor mass depends on it: of output: *PRINT (2); ..."; by
+  /// the reason, else the kind. Empty when nothing is.
+  std::string passed_line() const;
 
  private:
   std::deque<Content> rows_;

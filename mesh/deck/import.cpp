@@ -10,6 +10,7 @@
 #include "core/base/log.hpp"
 #include "core/mesh/boundary.hpp"
 #include "mesh/deck/abaqus/reader.hpp"
+#include "mesh/deck/cell_repair.hpp"
 #include "mesh/deck/nastran/reader.hpp"
 
 namespace clatter::mesh::deck {
@@ -55,14 +56,24 @@ Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
         fmt::format("{}: found extension '{}', expected .inp, .bdf, .nas, .dat or .fem",
                     path.string(), extension));
   Deck deck = is_nastran(extension) ? read_nastran(path, options) : read_abaqus(path, options);
+  if (options.mass) {
+    deck.mass = *options.mass;
+  } else if (deck.mass == MassForm::kLumped) {
+    deck.notes.push_back(
+        fmt::format("{}: lumped mass of the cells, as the deck's program makes it; --mass "
+                    "consistent changes it",
+                    path.string()));
+  }
   const bool say_notes = options.contents == nullptr;  // else they are rows of the table
   finish_deck(deck, units, path.string(), say_notes);
   return deck;
 }
 
 void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where, bool say_notes) {
-  if (deck.mesh.cell_count() == 0)
-    throw InputError(fmt::format("{}: found no solid cells, expected some", where));
+  if (deck.mesh.cell_count() == 0 && deck.springs.empty() && deck.matrices.empty())
+    throw InputError(fmt::format("{}: found no solid cells and no springs, expected some", where));
+  for (const std::string& done : repair_cells(deck.mesh, where))
+    deck.renumbered.push_back(fmt::format("{}: {}", where, done));
   for (const Support& retained : deck.retained)
     if (!retained.system.empty())
       deck.notes.push_back(
@@ -70,7 +81,8 @@ void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where, 
                       "those of exports (CD 0)",
                       retained.where, retained.system));
   if (say_notes)
-    for (const std::string& note : deck.notes) warn(note);
+    for (const auto* said : {&deck.renumbered, &deck.notes})
+      for (const std::string& one : *said) warn(one);
   convert_units(deck, units);
   note_origin(deck, units);
   deck.mesh.surfaces["skin"] = skin_of(boundary_faces(deck.mesh));

@@ -57,8 +57,7 @@ void Skins::note(const std::string& where) const {
   if (!inside.empty())
     parts.push_back(fmt::format("{}: inside a region, left out", counted(inside)));
   if (!elsewhere.empty())
-    parts.push_back(fmt::format("{}: not the face of a solid and without a section, left out",
-                                counted(elsewhere)));
+    parts.push_back(fmt::format("{}: not the face of a solid, left out", counted(elsewhere)));
   deck_.notes.push_back(fmt::format("{}: {}", where, fmt::join(parts, "; ")));
 }
 

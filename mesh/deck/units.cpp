@@ -24,6 +24,20 @@ void convert_equations(Deck& deck, const UnitSystem& units) {
       if (term.direction >= 3) term.coefficient *= units.length;
 }
 
+/// Rows and columns of rotations have one more length; a mass has no other, a stiffness force over
+/// length.
+void convert_matrices(Deck& deck, const UnitSystem& units) {
+  for (NodalMatrix& matrix : deck.matrices) {
+    const double unit = matrix.is_mass ? units.mass : units.force() / units.length;
+    for (size_t i = 0; i < matrix.terms.size(); ++i) {
+      const double factor = matrix.terms[i].direction >= 3 ? units.length : 1.0;
+      const auto row = static_cast<Eigen::Index>(i);
+      matrix.values.row(row) *= factor * unit;
+      matrix.values.col(row) *= factor;
+    }
+  }
+}
+
 bool is_rotation(const Support& support) { return (support.dofs & kTranslations) == 0; }
 
 void convert_supports(std::vector<Support>& supports, const UnitSystem& units) {
@@ -53,14 +67,18 @@ void convert_units(Deck& deck, const UnitSystem& units) {
   convert_equations(deck, units);
   for (Tie& tie : deck.ties)
     if (tie.distance > 0.0) tie.distance *= units.length;
-  for (Spring& spring : deck.springs)
-    spring.stiffness *=
-        units.force() * (spring.terms.front().direction >= 3 ? units.length : 1.0 / units.length);
+  for (Spring& spring : deck.springs) {
+    const bool turns = spring.terms.front().direction >= 3;
+    spring.stiffness *= units.force() * (turns ? units.length : 1.0 / units.length);
+    for (Equation::Term& term : spring.terms)  // lever arms
+      if (!turns && term.direction >= 3) term.coefficient *= units.length;
+  }
   for (Mass& mass : deck.masses) {
     mass.mass *= units.mass;
     mass.inertia *= units.mass * units.length * units.length;
     mass.offset *= units.length;
   }
+  convert_matrices(deck, units);
   convert_supports(deck.supports, units);
   for (Step& step : deck.steps) convert_step(step, units);
 }

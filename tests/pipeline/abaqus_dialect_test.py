@@ -15,6 +15,8 @@ import stages  # noqa: E402
 # CalculiX 2.20, seven digits [Hz]: `ccx plain` of abaqus_dialects.plain(), `ccx mass` of with_mass(BODIES["rigid_body"]).
 PLAIN = (5429.477, 5429.477, 20080.09, 28172.24)
 MASS = (2557.241, 2557.241, 18844.63, 18844.63)
+# `ccx link` of linked(LINKS["equation"]).
+LINK = (5429.477, 5617.893, 20258.90, 28172.24)
 PRINTED = 3e-7  # half of the last digit of seven
 FOOT = "\n[[support]]\nname = \"foot\"\nnode_set = \"{}\"\ndirections = [\"x\", \"y\", \"z\"]\n"
 STEEL = "\n[material.steel]\nregions = [\"bar\"]\nE = 210e9\nnu = 0.3\nrho = 7850\nhex8 = \"full\"\n"
@@ -51,6 +53,11 @@ class Dialects(unittest.TestCase):
             with self.subTest(name):
                 self.expect(self.frequencies("a.inp", text()), PLAIN)
 
+    def test_a_rigid_link_in_a_skew_direction_is_a_rod(self):
+        for name, link in abaqus_dialects.LINKS.items():
+            with self.subTest(name):
+                self.expect(self.frequencies("a.inp", abaqus_dialects.linked(link)), LINK)
+
     def test_every_rigid_body_with_a_mass_has_calculix_s_frequencies(self):
         for name, body in abaqus_dialects.BODIES.items():
             with self.subTest(name):
@@ -69,8 +76,11 @@ class Dialects(unittest.TestCase):
                            ("skinned", "*MEMBRANE SECTION gives stiffness to 16 faces of solids, 1e-09 thick"),
                            ("as_gmsh", "4 CPS4: faces of solids, now the surfaces lid, Surface2"),
                            ("hybrid", "C3D8H is read as C3D8"),
-                           ("passed_over", "neither K nor M: *CONDUCTIVITY, *CONTACT CONTROLS, *DAMPING, *FRICTION, "
-                                           "*MODAL DAMPING, *PLASTIC, *SELECT EIGENMODES, *SURFACE INTERACTION")):
+                           ("passed_over", "passed over, since neither stiffness nor mass depends on it: "
+                                           "contact, beyond whether it is bonded: *SURFACE INTERACTION, *FRICTION; "
+                                           "damping: *MODAL DAMPING; damping, offered to the recipe: *DAMPING; of a "
+                                           "nonlinear analysis: *PLASTIC, *CONTACT CONTROLS; of heat transfer: "
+                                           "*CONDUCTIVITY; of modal steps: *SELECT EIGENMODES")):
             (self.folder / "b.inp").write_text(abaqus_dialects.FILES[name]())
             said = self.stage("mesh", "b.inp", "--units", "mm-t-s", "-o", "b.mesh.h5")
             self.assertEqual(said.count(line), 1, said)

@@ -244,6 +244,18 @@ BODIES = {
     "beams_of_sets": "*MPC\nBEAM, TOP, 900\n",
 }
 
+# A rod from node 73 to node 21, skew to the axes: (10, 0, -30) . (u_73 - u_21) = 0. Point 900 is in its middle.
+LINKS = {
+    "equation": "*EQUATION\n4\n73, 1, 10., 73, 3, -30., 21, 1, -10., 21, 3, 30.\n",
+    "beam": "*MPC\nBEAM, 73, 21\n",
+    "two_beams": "*MPC\nBEAM, 73, 900\nBEAM, 21, 900\n",
+}
+
+
+def linked(link):
+    middle = "*NODE\n900, 5., 0., 25.\n" if "900" in link else ""
+    return mesh() + middle + CLAMP + STEEL + SECTION + link + HELD + STEP
+
 
 def universal():
     """I-DEAS universal file of mesh and groups."""

@@ -177,7 +177,9 @@ void read_expansion(Model& model, const Card& card, Material* material) {
 // D = ALPHA M + BETA K; other kinds are of steps that are not read.
 void read_damping(Model& model, const Card& card, Material* material) {
   const Keyword& keyword = card.keyword();
-  ++model.deck.passed[keyword.name];
+  constexpr int64_t kNoMore = 0;  // it is counted
+  model.refusals.contents().pass("keyword", keyword.name, model.source, card.origin(),
+                                 "damping, offered to the recipe", kNoMore);
   const auto value = [&](const char* name) {
     const std::string* text = keyword.find(name);
     return text == nullptr ? 0.0 : Fields(*text, model.source, card.origin()).number(0, name);

@@ -209,7 +209,8 @@ void build_initial_temperature(Model& model) {
     keyword.allow({"TYPE"}, model.source, model.ignore);
     const std::string type = keyword.choice("TYPE", "");
     if (type == "VELOCITY" || type == "FIELD") {
-      ++model.deck.passed[keyword.name];
+      model.refusals.contents().pass("keyword", keyword.name + ", TYPE=" + type, model.source,
+                                     card.origin(), "of a state that linear statics do not have");
       return;
     }
     if (type != "TEMPERATURE") {

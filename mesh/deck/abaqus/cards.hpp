@@ -11,7 +11,7 @@ namespace clatter::mesh::deck::abaqus {
 
 enum class Role {
   kUnknown,      // refused by name
-  kHarmless,     // changes neither K nor M: passed over with its data lines, and counted
+  kHarmless,     // changes neither K nor M: passed over with its data lines
   kInteraction,  // the same, but kept: it decides whether a contact is bonded
   kNode,         // tables, read directly
   kElement,

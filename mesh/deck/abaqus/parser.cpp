@@ -151,11 +151,7 @@ class Parser {
         return skip_data();
       case Role::kHarmless:
       case Role::kMaterialIdle:
-        ++deck_.passed[keyword.name];
         return skip_data();
-      case Role::kInteraction:
-        ++deck_.passed[keyword.name];
-        return read_card();
       case Role::kNode:
         return read_nodes(lines_, *scope_, system_, ignore_);
       case Role::kElement:
@@ -194,7 +190,9 @@ class Parser {
     content.fate = row == nullptr ? Fate::kRefused : fate_of(row->role);
     if (row != nullptr) content.meaning = row->meaning;
     if (ignored) content.fate = Fate::kIgnored;
-    if (left_out) content.fate = Fate::kPassed;
+    if (!left_out) return;
+    content.fate = Fate::kPassed;
+    content.meaning = "in a step that is left out";
   }
 
   // Drops the open step and those that follow from it.

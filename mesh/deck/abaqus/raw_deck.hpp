@@ -98,8 +98,7 @@ struct RawDeck {
   Scope model;  // the flat deck, or the assembly with materials and steps
   std::vector<Scope> parts;
   std::vector<InstanceLine> instances;
-  std::vector<std::string> notes;         // Deck::notes
-  std::map<std::string, int64_t> passed;  // Deck::passed
+  std::vector<std::string> notes;  // Deck::notes
 };
 
 /// The chunk that a new keyword adds to; creates the set if needed.

@@ -206,6 +206,7 @@ Lines::Kind skip_elements(Lines& lines, const std::string& type, Scope& scope, I
 const char* integration(Formulation formulation) {
   switch (formulation) {
     case Formulation::kFull:
+    case Formulation::kFine:
       return ", full integration";
     case Formulation::kReduced:
       return ", reduced integration";

@@ -15,14 +15,12 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   Refusals refusals(options.contents);
   RawDeck raw = parse(source, ignore, refusals);
   std::vector<std::string> notes = std::move(raw.notes);
-  std::map<std::string, int64_t> passed = std::move(raw.passed);
   std::unique_ptr<Model> model_owner;
   refusals.require(
       [&] { model_owner = std::make_unique<Model>(source, std::move(raw), ignore, refusals); });
   Model& model = *model_owner;
   model.deck.mesh.name = name;
   model.deck.notes = std::move(notes);
-  model.deck.passed = std::move(passed);
   build_materials(model);
   build_systems(model);
   refusals.require([&] { build_mesh(model); });
@@ -45,6 +43,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   build_cyclic(model);
   refusals.raise();
   model.deck.ignored = ignore.counted();
+  model.deck.passed = refusals.contents().passed_line();
   model.deck.files = source.files();
   return std::move(model.deck);
 }

@@ -16,8 +16,8 @@ struct CdbCell {
   std::vector<size_t> nodes;
 };
 
-/// The cell of a SOLID45, 92, 95, 185, 186 or 187 with these nodes: repeated ones make wedges,
-/// pyramids and tetrahedra of hexahedra. None for another routine, count or pattern.
+/// The cell of a SOLID45, 92, 95, 185, 186 or 187 with these nodes, of which some may be the same
+/// (cell_repair.hpp). None for another count, and for an omitted mid-side node.
 std::optional<CdbCell> cdb_cell(int routine, const std::vector<size_t>& nodes);
 
 /// True for the routines above.

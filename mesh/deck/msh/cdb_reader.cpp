@@ -240,8 +240,8 @@ class CdbReader {
     const auto cell = cdb_cell(routine, element.nodes);
     if (!cell)
       throw InputError(
-          fmt::format("{}: element {} of SOLID{} has {} nodes in a pattern that is no "
-                      "hexahedron, wedge, pyramid or tetrahedron",
+          fmt::format("{}: element {} of SOLID{} has {} nodes, expected 8, 20 or (SOLID187) 10 and "
+                      "none omitted",
                       element.where, element.tag, routine, element.nodes.size()));
     const int group =
         several_types ? element.material * (kMostNumber + 1) + element.type : element.material;

@@ -17,7 +17,4 @@ namespace clatter::mesh::deck {
 /// with the same ones becomes a case too; others are named in a comment.
 std::string recipe_text(Deck& deck);
 
-/// "passed over, since it changes neither K nor M: *OUTPUT (2), *PLASTIC".
-std::string passed_line(const Deck& deck);
-
 }  // namespace clatter::mesh::deck

@@ -51,7 +51,7 @@ TEST(Check, AReadDeckIsListedByNameWithCountLineAndMeaning) {
   EXPECT_THAT(row(checked, "GRID").where, HasSubstr("c.bdf:10"));
   EXPECT_EQ(row(checked, "PLOTEL").count, 2);
   EXPECT_EQ(row(checked, "PLOTEL").fate, "passed over");
-  EXPECT_EQ(row(checked, "PLOTEL").remark, "line of a plot");
+  EXPECT_EQ(row(checked, "PLOTEL").remark, "of output and plots");
   EXPECT_EQ(row(checked, "POST").fate, "passed over");
   EXPECT_EQ(row(checked, "SOL").kind, "executive");
   EXPECT_EQ(row(checked, "TITLE").fate, "passed over");
@@ -67,7 +67,7 @@ TEST(Check, ARefusedCardHasItsLineAndWhatToWriteInstead) {
   EXPECT_EQ(row(checked, "CBAR").count, 2);
   EXPECT_EQ(row(checked, "CBAR").fate, "refused");
   EXPECT_THAT(row(checked, "CBAR").where, HasSubstr("c.bdf:17"));
-  EXPECT_THAT(row(checked, "CBAR").remark, HasSubstr("(no beams yet); ignore = [\"CBAR\"]"));
+  EXPECT_THAT(row(checked, "CBAR").remark, HasSubstr("no bars yet; ignore = [\"CBAR\"]"));
   EXPECT_EQ(row(checked, "CQUAD4").fate, "ignored");
   const CheckedRow& last = checked.rows.back();  // the field of one of several SPC1
   EXPECT_EQ(last.fate, "refused");
@@ -89,10 +89,20 @@ TEST(Check, WhatTheReaderSaysOfTheDeckIsARow) {
   const CheckedRow unused = row(checked, "GRID (of no solid and no coupling)");
   EXPECT_EQ(unused.count, 1);
   EXPECT_EQ(unused.fate, "left out");
-  const CheckedRow& note = checked.rows.back();
+  const CheckedRow& note = checked.rows.end()[-2];  // then the lumped mass
   EXPECT_EQ(note.fate, "noted");
   EXPECT_THAT(note.where, HasSubstr("c.bdf:8"));
   EXPECT_THAT(note.remark, HasSubstr("without ENDDATA"));
+}
+
+TEST(Check, LeftHandedCellsAreRenumbered) {
+  std::string text = kTet;
+  text.replace(text.find("CTETRA,1,1,1,2,3"), 16, "CTETRA,1,1,1,3,2");
+  const CheckedDeck checked = check("c.bdf", text + "ENDDATA\n");
+  const auto found = std::find_if(checked.rows.begin(), checked.rows.end(),
+                                  [](const auto& one) { return one.fate == "renumbered"; });
+  ASSERT_NE(found, checked.rows.end());
+  EXPECT_EQ(found->remark, "1 of 1 cells are left-handed: their nodes are renumbered");
 }
 
 TEST(Check, AFoldedCellIsRefusedAsInReading) {

@@ -132,9 +132,12 @@ TEST(Cdb, RepeatedNodesMakeWedgesPyramidsAndTetrahedra) {
              CellType::kPyramid5},
         Case{"       1       2       3       3       5       5       5       5",
              CellType::kTet4}}) {
-    const ForeignMesh found = cdb(kCdbNodes + cdb_cells(1, one.nodes));
-    ASSERT_EQ(found.contents.elements.size(), 1u);
-    EXPECT_EQ(found.contents.elements[0].gmsh_type, traits(one.type).gmsh_type);
+    const Folder folder;
+    std::ofstream(folder / "part.cdb") << kCdbNodes + cdb_cells(1, one.nodes);
+    const deck::Deck found = read_mesh_file(folder / "part.cdb", kMetres, {});
+    ASSERT_EQ(found.mesh.cells.size(), 1u);
+    EXPECT_EQ(found.mesh.cells[0].type, one.type);
+    EXPECT_EQ(found.renumbered.size(), one.type == CellType::kHex8 ? 0u : 1u);
   }
   const ForeignMesh hex = cdb(kCdbNodes + cdb_cells(1,
                                                     "       1       2       3       4       5"
