@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <set>
 
@@ -19,6 +20,17 @@ Skins::Skins(Deck& deck, std::vector<SkinCell> cells) : deck_(deck), cells_(std:
     if (*std::min_element(nodes.begin(), nodes.end()) < 0) continue;
     found_[c] = faces.find(cells_[c].type, nodes);
   }
+}
+
+double Skins::area(size_t cell) const {
+  const SkinCell& one = cells_[cell];
+  const auto corners = static_cast<size_t>(traits(one.type).corners);
+  if (*std::min_element(one.nodes.begin(), one.nodes.begin() + corners) < 0) return 0.0;
+  const auto at = [&](size_t i) -> Eigen::Vector3d { return deck_.mesh.nodes.row(one.nodes[i]); };
+  const bool triangle = corners == 3;
+  const Eigen::Vector3d d = at(triangle ? 1 : 2) - at(0);
+  const Eigen::Vector3d e = at(triangle ? 2 : 3) - at(triangle ? 0 : 1);
+  return 0.5 * d.cross(e).norm();
 }
 
 void Skins::add_surface(const std::string& name, const std::vector<size_t>& cells) {
@@ -59,6 +71,13 @@ void Skins::note(const std::string& where) const {
   if (!elsewhere.empty())
     parts.push_back(fmt::format("{}: not the face of a solid, left out", counted(elsewhere)));
   deck_.notes.push_back(fmt::format("{}: {}", where, fmt::join(parts, "; ")));
+}
+
+std::string skin_loss(const std::string& what, double thickness, double mass) {
+  std::string text = what + " gives stiffness to faces of solids";
+  if (thickness > 0.0) text += fmt::format(", {} thick", thickness);
+  if (mass > 0.0) text += fmt::format(", {:.4g} of mass in the deck's units", mass);
+  return text + ": left out until shells are read";
 }
 
 std::string counted(const std::map<std::string, int64_t>& kinds) {

@@ -28,6 +28,8 @@ class Skins {
   bool is_inside(size_t cell) const { return found_[cell].fit == FacesByNodes::Fit::kInside; }
   const SkinCell& cell(size_t cell) const { return cells_[cell]; }
   size_t size() const { return cells_.size(); }
+  /// Of its corners; 0 unless all nodes belong to solids.
+  double area(size_t cell) const;
   /// The faces of those cells as a surface, each once, under an unused name that begins with
   /// `name`; none when no cell is a face.
   void add_surface(const std::string& name, const std::vector<size_t>& cells);
@@ -40,6 +42,10 @@ class Skins {
   std::vector<FacesByNodes::Found> found_;
   std::vector<std::string> surfaces_;
 };
+
+/// A note of what a section or property gives to faces of solids, which is left out.
+/// @param thickness 0: not known. @param mass in the deck's units.
+std::string skin_loss(const std::string& what, double thickness, double mass);
 
 /// "12 CPS6, 3 S3".
 std::string counted(const std::map<std::string, int64_t>& kinds);

@@ -73,7 +73,7 @@ class Dialects(unittest.TestCase):
 
     def test_what_is_assumed_is_one_line_each(self):
         for name, line in (("skinned", "16 M3D4: faces of solids, now the surface SKIN"),
-                           ("skinned", "*MEMBRANE SECTION gives stiffness to 16 faces of solids, 1e-09 thick"),
+                           ("skinned", "*MEMBRANE SECTION gives stiffness to faces of solids, 1e-09 thick"),
                            ("as_gmsh", "4 CPS4: faces of solids, now the surfaces lid, Surface2"),
                            ("hybrid", "C3D8H is read as C3D8"),
                            ("passed_over", "passed over, since neither stiffness nor mass depends on it: "

@@ -127,7 +127,7 @@ def read_deck(deck, folder):
 def refusal(text):
     """The first line of a program's refusals that names one, and how many there are."""
     lines = [line.strip() for line in re.sub(r"clatter-\w+: (error: )?", "", text).splitlines() if line.strip()]
-    lines = [line for line in lines if not re.search(r"\d+ refusals:$", line)]
+    lines = [line for line in lines if not re.search(r"\d+ refusals:$|^warning: ", line)]
     first = re.sub(r" \(and \d+ more, next at [^)]*\)", "", lines[0])
     first = re.sub(r"^.*/(?=[^/]+:\d+: |[^/ ]+: )", "", first)
     return first + (f" (and {len(lines) - 1} more)" if len(lines) > 1 else "")

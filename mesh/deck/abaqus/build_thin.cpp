@@ -3,7 +3,6 @@
 // and beams.
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <map>
 
 #include "mesh/deck/abaqus/model.hpp"
@@ -143,40 +142,21 @@ class ThinElements {
 
   // What the solids have is the deck's; what a section of their skin adds is left out.
   void note_sections() {
-    struct Loss {
-      double area = 0.0;
-      int64_t cells = 0;
-    };
-    std::map<const Card*, Loss> losses;
+    std::map<const Card*, double> areas;
     for (size_t t = 0; t < all_.size(); ++t) {
-      if (section_[t] == nullptr || !all_[t].face) continue;
-      Loss& loss = losses[section_[t]];
-      loss.area += area_of(all_[t]);
-      ++loss.cells;
+      if (section_[t] != nullptr && all_[t].face) areas[section_[t]] += skins_.area(skin_of_[t]);
     }
-    for (const auto& [card, loss] : losses) {
-      const auto thickness =
-          card->size() > 0 ? to_number(card->line(0, model_.source).text(0)) : std::nullopt;
+    for (const auto& [card, area] : areas) {
+      const double thickness =
+          card->size() > 0 ? to_number(card->line(0, model_.source).text(0)).value_or(0.0) : 0.0;
       const auto material = model_.material_names.find(card->keyword().choice("MATERIAL", ""));
-      std::string mass;
-      if (thickness && material != model_.material_names.end()) {
-        mass = fmt::format(
-            ", {:.4g} of mass in the deck's units",
-            loss.area * *thickness * model_.deck.materials.at(material->second).density);
-      }
-      model_.deck.notes.push_back(fmt::format(
-          "{}: {} gives stiffness to {} faces of solids{}{}: left out until shells are read",
-          model_.source.where(card->origin()), card->keyword().name, loss.cells,
-          thickness ? fmt::format(", {} thick", *thickness) : "", mass));
+      const double density = material == model_.material_names.end()
+                                 ? 0.0
+                                 : model_.deck.materials.at(material->second).density;
+      model_.deck.notes.push_back(
+          fmt::format("{}: {}", model_.source.where(card->origin()),
+                      skin_loss(card->keyword().name, thickness, area * thickness * density)));
     }
-  }
-
-  double area_of(const ThinElement& one) const {
-    const auto at = [&](size_t i) { return numbering_.at(one.nodes[i]); };
-    const bool triangle = traits(*one.face).corners == 3;
-    const Eigen::Vector3d d = at(triangle ? 1 : 2) - at(0);
-    const Eigen::Vector3d e = at(triangle ? 2 : 3) - at(triangle ? 0 : 1);
-    return 0.5 * d.cross(e).norm();
   }
 
   Model& model_;

@@ -3,7 +3,6 @@
 // surfaces of the mesh; others are shells.
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 
@@ -30,7 +29,7 @@ std::vector<SkinCell> cells_of(const Model& model) {
 // A shell has stiffness, unless the deck is a mesh without properties. What hangs on grids of
 // shells that the user ignores hangs on nothing.
 bool leave_out_shells(Model& model, Ignore& ignore, const Skins& skins) {
-  if (model.raw.solids.empty() && model.raw.shells.empty()) return true;
+  const bool mere_mesh = model.raw.solids.empty() && model.raw.shells.empty();
   std::map<std::string, std::pair<int64_t, Origin>> found;
   for (size_t c = 0; c < skins.size(); ++c) {
     const RawSkin& raw = model.raw.skins[c];
@@ -42,7 +41,7 @@ bool leave_out_shells(Model& model, Ignore& ignore, const Skins& skins) {
   }
   bool refused = false;
   for (const auto& [kind, count] : found) {
-    if (ignore.skips(kind, count.first)) continue;
+    if (ignore.skips(kind, count.first) || mere_mesh) continue;
     refused = true;
     model.refusals.add(fmt::format(
         "{}: card {} is not supported (no shells yet): {} of them are not the face of a solid; "
@@ -53,30 +52,20 @@ bool leave_out_shells(Model& model, Ignore& ignore, const Skins& skins) {
   return !refused;
 }
 
-double area_of(const Mesh& mesh, const SkinCell& cell) {
-  const auto at = [&](size_t i) -> Eigen::Vector3d { return mesh.nodes.row(cell.nodes[i]); };
-  const bool triangle = traits(cell.type).corners == 3;
-  const Eigen::Vector3d d = at(triangle ? 1 : 2) - at(0);
-  const Eigen::Vector3d e = at(triangle ? 2 : 3) - at(triangle ? 0 : 1);
-  return 0.5 * d.cross(e).norm();
-}
-
 void note_property(Model& model, const Skins& skins, const RawShell& shell, int32_t property,
                    const std::vector<size_t>& cells) {
   if (shell.card == "PSHELL" && shell.material == 0) return;  // without membrane
   double area = 0.0;
   for (const size_t c : cells) {
-    if (skins.is_surface(c)) area += area_of(model.deck.mesh, skins.cell(c));
+    if (skins.is_surface(c)) area += skins.area(c);
   }
   if (area == 0.0) return;
   const auto material = model.raw.materials.find(shell.material);
   const double density = material == model.raw.materials.end() ? 0.0 : material->second.density;
-  model.deck.notes.push_back(fmt::format(
-      "{}: {} {} gives stiffness to faces of solids{}: left out until shells are read",
-      model.source.where(shell.origin), shell.card, property,
-      shell.thickness > 0.0 ? fmt::format(", {} thick, {:.4g} of mass in the deck's units",
-                                          shell.thickness, area * shell.thickness * density)
-                            : ""));
+  model.deck.notes.push_back(
+      fmt::format("{}: {}", model.source.where(shell.origin),
+                  skin_loss(fmt::format("{} {}", shell.card, property), shell.thickness,
+                            area * shell.thickness * density)));
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST(AbaqusSkins, ASectionOnAFaceIsNamedWithItsMass) {
                          "*ELEMENT, TYPE=S4, ELSET=WALL\n50, 1, 2, 3, 4\n"
                          "*SHELL SECTION, ELSET=WALL, MATERIAL=STEEL\n2.\n");
   EXPECT_EQ(deck.mesh.surface("WALL").face_count(), 1);
-  EXPECT_THAT(deck.notes.back(), HasSubstr("deck.inp:26: *SHELL SECTION gives stiffness to 1 faces "
+  EXPECT_THAT(deck.notes.back(), HasSubstr("deck.inp:26: *SHELL SECTION gives stiffness to faces "
                                            "of solids, 2 thick, 1.56e-08 of mass"));
 }
 

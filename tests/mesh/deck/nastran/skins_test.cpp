@@ -24,12 +24,12 @@ TEST(NastranSkins, FacesOfSolidsAreTheSurfaceOfTheirProperty) {
   EXPECT_EQ(deck.mesh.surface("pid_2").face_count(), 1);
   EXPECT_EQ(mesh::nodes_of(deck.mesh.surface("pid_2")), (std::vector<int32_t>{4, 5, 6, 7}));
   EXPECT_EQ(deck.mesh.surface("pid_3").face_count(), 1);
-  ASSERT_EQ(deck.notes.size(), 3u);
-  EXPECT_THAT(deck.notes[0],
+  ASSERT_EQ(deck.notes.size(), 4u);  // the first is on PSOLID
+  EXPECT_THAT(deck.notes[1],
               HasSubstr("t.bdf:14: 2 CQUAD4: faces of solids, now the surfaces pid_2, pid_3"));
-  EXPECT_THAT(deck.notes[1], HasSubstr("t.bdf:16: PSHELL 2 gives stiffness to faces of solids, 0.5 "
+  EXPECT_THAT(deck.notes[2], HasSubstr("t.bdf:16: PSHELL 2 gives stiffness to faces of solids, 0.5 "
                                        "thick, 3.9 of mass in the deck's units: left out"));
-  EXPECT_THAT(deck.notes[2],
+  EXPECT_THAT(deck.notes[3],
               HasSubstr("t.bdf:17: PCOMP 3 gives stiffness to faces of solids: left"));
 }
 
