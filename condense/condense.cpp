@@ -210,7 +210,8 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
                             .combined = std::move(rows.combined),
                             .recovered_sets = std::move(rows.names),
                             .elimination = statics.order,
-                            .certificate = {}};
+                            .certificate = {},
+                            .deck = model.deck};
   if (found.search.tried > 0) record(found.search, reduced.certificate);
   Eigen::MatrixXd motions = boundary_rows(part, part.free.q, reduced.size());
   if (options.interface) {

@@ -9,6 +9,7 @@
 #include "mesh/cad_alone.hpp"
 #include "mesh/deck/import.hpp"
 #include "mesh/deck/msh/reader.hpp"
+#include "mesh/deck/other_formats.hpp"
 #include "mesh/geometry/cad_unit.hpp"
 #include "mesh/limits_option.hpp"
 #include "mesh/part/list_faces.hpp"
@@ -29,9 +30,10 @@ void say_unit(const std::filesystem::path& source, const std::string& unit) {
 
 Config config_of(const std::filesystem::path& input) {
   if (is_cad(input)) return config_of_cad(input, 0.0);
-  if (deck::is_deck(input) || is_msh(input))
+  if (deck::is_deck(input) || is_mesh_file(input))
     throw InputError(fmt::format(
         "{}: found a mesh, expected CAD (.step, .brep, .iges) or part.mesh.toml", input.string()));
+  deck::refuse_other_format(input);
   Config config = Config::load(input);
   if (config.text("kind") == "deck")
     config.fail("kind", "found 'deck', expected a part with geometry");

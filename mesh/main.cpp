@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // clatter-mesh: from a part's description, or a deck of another program, to a proved mesh.
 #include "core/base/command_line.hpp"
+#include "mesh/cards_command.hpp"
 #include "mesh/export_command.hpp"
 #include "mesh/faces_command.hpp"
 #include "mesh/mesh_command.hpp"
@@ -25,11 +26,13 @@ constexpr const char* kEpilog =
   [surface.clamp]                 # surfaces by position; filters combine
   plane = { normal = [1, 0, 0], height = 0.0 }
 
-A deck of Nastran (.bdf, .nas, .dat) or Abaqus and CalculiX (.inp) is read directly; --recipe writes its materials, couplings, supports and loads to the fe.toml of the next stage:
+A deck of Nastran (.bdf, .nas, .dat, .fem) or Abaqus and CalculiX (.inp) is read directly; --recipe writes its materials, couplings, supports and loads to the fe.toml of the next stage:
   clatter-mesh part.inp --units mm-t-s -o part.mesh.h5 --recipe part.fe.toml
   clatter-mesh part.bdf --units m-kg-s --ignore CQUAD4 -o part.mesh.h5
+  clatter-mesh part.bdf --check            (lists all that it holds: read, passed over, refused)
   clatter-mesh part.msh --units mm-t-s -o part.mesh.h5     (Gmsh, MSH 2 or 4: groups are regions,
-                                                            surfaces and node sets)
+                                                            surfaces and node sets; .med, .unv and
+                                                            .cdb of ANSYS likewise)
 Units: m-kg-s, mm-t-s (N, MPa), mm-kg-ms (kN, GPa), mm-kg-s, cm-g-s, in-lbfs2/in-s. In a
 description: kind = "deck" with [deck] source, units, ignore.
 
@@ -58,6 +61,7 @@ int main(int argc, char** argv) {
   mesh::declare_mesh(program);
   mesh::declare_faces(program);
   mesh::declare_export(program);
+  mesh::declare_cards(program);
   program.moved("--faces", "clatter-mesh faces PART [-o OUTPUT]");
   return program.run(argc, argv);
 }

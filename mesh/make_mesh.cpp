@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <optional>
+
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/plausible.hpp"
@@ -13,6 +15,7 @@
 #include "mesh/cad_alone.hpp"
 #include "mesh/deck/import.hpp"
 #include "mesh/deck/msh/reader.hpp"
+#include "mesh/deck/other_formats.hpp"
 #include "mesh/deck/recipe/text.hpp"
 #include "mesh/geometry/bare_cad.hpp"
 #include "mesh/geometry/cad_unit.hpp"
@@ -52,15 +55,28 @@ NewMesh mesh_geometry(const MeshRequest& a, const Config& config, const std::str
   return out;
 }
 
+/// The names of --mass and of `mass` in [deck].
+const std::vector<std::string> kMassForms = {"as in the deck", "consistent", "lumped"};
+
+std::optional<deck::MassForm> mass_form(const std::string& name, const std::string& where) {
+  if (name.empty() || name == kMassForms[0]) return std::nullopt;
+  if (name == kMassForms[1]) return deck::MassForm::kConsistent;
+  if (name == kMassForms[2]) return deck::MassForm::kLumped;
+  throw InputError(fmt::format("{}: found \"{}\", expected one of: {}", where, name,
+                               fmt::join(kMassForms, ", ")));
+}
+
 /// A deck with its own cells.
 NewMesh read_mesh_of_deck(const std::filesystem::path& source, const UnitSystem& units,
-                          const std::vector<std::string>& ignore, const std::string& name,
+                          const deck::ReadOptions& options, const std::string& name,
                           const ChildLimits& limits, StepClock& clock) {
-  deck::Deck found = is_msh(source) ? read_msh(source, units, {ignore}, limits)
-                                    : deck::read_deck(source, units, {ignore});
+  const std::vector<std::string>& ignore = options.ignore;
+  deck::Deck found = is_mesh_file(source) ? read_mesh_file(source, units, options, limits)
+                                          : deck::read_deck(source, units, options);
   clock.lap("read");
   for (const auto& [card, count] : found.ignored)
     say(fmt::format("{}: ignored {} ({} times)", source.string(), card, count));
+  if (!found.passed.empty()) say(fmt::format("{}: {}", source.string(), found.passed));
   found.mesh.name = name;
   NewMesh out;
   out.recipe = deck::recipe_text(found);
@@ -98,13 +114,15 @@ NewMesh mesh_bare_cad(const MeshRequest& a, StepClock& clock) {
 
 NewMesh make_any_mesh(const MeshRequest& a, StepClock& clock) {
   if (is_cad(a.input)) return mesh_bare_cad(a, clock);
-  if (deck::is_deck(a.input) || is_msh(a.input)) {
+  if (deck::is_deck(a.input) || is_mesh_file(a.input)) {
     if (a.units.empty())
       throw InputError(fmt::format("{}: found no --units, expected one (decks have no units)",
                                    a.input.string()));
-    return read_mesh_of_deck(a.input, unit_system_named(a.units, "--units"), a.ignore,
-                             a.input.stem().string(), a.limits, clock);
+    return read_mesh_of_deck(a.input, unit_system_named(a.units, "--units"),
+                             {a.ignore, mass_form(a.mass, "--mass")}, a.input.stem().string(),
+                             a.limits, clock);
   }
+  deck::refuse_other_format(a.input);
   const Config config = Config::load(a.input);
   const std::string name = config.text("name");
   if (config.text("kind") != "deck") return mesh_geometry(a, config, name, clock);
@@ -112,8 +130,9 @@ NewMesh make_any_mesh(const MeshRequest& a, StepClock& clock) {
   const std::filesystem::path source = table.path("source");
   const auto units = unit_system_named(table.text("units"), table.where() + ": units");
   const std::vector<std::string> ignore = table.texts_or("ignore", {});
+  const auto mass = mass_form(table.text_or("mass", kMassForms[0]), table.where() + ": mass");
   config.finish();
-  NewMesh out = read_mesh_of_deck(source, units, ignore, name, a.limits, clock);
+  NewMesh out = read_mesh_of_deck(source, units, {ignore, mass}, name, a.limits, clock);
   out.provenance.config = config.resolved();
   out.provenance.inputs.push_back(a.input);
   return out;
@@ -124,6 +143,7 @@ NewMesh make_any_mesh(const MeshRequest& a, StepClock& clock) {
 NewMesh make_mesh(const MeshRequest& request, StepClock& clock) {
   NewMesh made = make_any_mesh(request, clock);
   const RowMatrix& nodes = made.mesh.nodes;
+  if (nodes.rows() == 0) return made;
   warn_implausible(
       request.input.string(),
       {length_warning((nodes.colwise().maxCoeff() - nodes.colwise().minCoeff()).maxCoeff())});
@@ -136,6 +156,7 @@ std::vector<std::string> describe(const NewMesh& result) {
   const Measure& angle = result.quality.min_dihedral_deg;
   lines.push_back(fmt::format("mesh: {:.0f} cells, {:.0f} nodes, {:.0f} degrees of freedom",
                               c.cells, c.nodes, c.dofs));
+  if (result.mesh.cell_count() == 0) return lines;
   for (size_t r = 0; r < result.mesh.regions.size(); ++r) {
     lines.push_back(fmt::format("mesh: region {}: volume {:.6g} m3", result.mesh.regions[r],
                                 cell_volume(result.mesh, static_cast<int32_t>(r))));

@@ -21,6 +21,7 @@ struct MeshRequest {
   std::filesystem::path step;       // geometry to write as well (.step, .brep); empty: none
   std::string units;                // of a deck
   std::vector<std::string> ignore;  // cards, keywords, groups of a deck to skip
+  std::string mass;                 // of a deck's recipe: as in the deck (or empty), ...
   double element_size_mm = 0.0;     // 0: as in the description
   bool accept_poor_cells = false;   // a warning instead of an error
   ChildLimits limits;               // of the child processes that run gmsh

@@ -8,6 +8,7 @@
 #include "core/base/whole_file.hpp"
 #include "core/base/write_artefact.hpp"
 #include "core/mesh/mesh_file.hpp"
+#include "mesh/deck/check.hpp"
 #include "mesh/exports/mesh_export.hpp"
 #include "mesh/geometry/bare_cad.hpp"
 #include "mesh/limits_option.hpp"
@@ -22,6 +23,7 @@ struct MeshArguments {
   std::filesystem::path recipe;
   std::vector<std::filesystem::path> exports;
   int parts = 0;
+  bool check = false;
 };
 
 void write_partition(H5File& file, const Partition& partition) {
@@ -32,8 +34,22 @@ void write_partition(H5File& file, const Partition& partition) {
   file.set("partition", "cut_faces", partition.cut);
 }
 
+// Prints what the deck holds; InputError when something is refused.
+void check_only(const MeshArguments& a, const CommonOptions& common) {
+  const deck::CheckedDeck checked = deck::check_deck(a.request.input, a.request.ignore);
+  for (const std::string& line : deck::table_of(checked)) print_result(line);
+  if (common.json) print_json(deck::json_of(checked));
+  if (checked.refused > 0)
+    throw InputError(fmt::format(
+        "{}: {} refused, see the table", a.request.input.string(),
+        checked.refused == 1 ? "1 row is" : fmt::format("{} rows are", checked.refused)));
+  print_result(fmt::format("{}: is read: {}", a.request.input.string(), checked.summary));
+}
+
 void write_new_mesh(const MeshArguments& a, const CommonOptions& common) {
   const MeshRequest& request = a.request;
+  if (a.check) return check_only(a, common);
+  if (request.output.empty()) throw InputError("-o,--output is required (see clatter-mesh --help)");
   check_limits(request.limits);
   if (request.input.extension() == ".h5")
     throw InputError(fmt::format(
@@ -67,13 +83,17 @@ void declare_mesh(CommandLine& line) {
   MeshRequest& request = a->request;
   line.positional("part", request.input,
                   "description of the part (.mesh.toml), CAD (.step, .brep, .iges), or a deck "
-                  "(.inp, .bdf, .nas, .dat, .msh)");
-  line.output("-o,--output", request.output, "mesh file to write (.mesh.h5)", true);
+                  "(.inp, .bdf, .nas, .dat, .fem, .msh, .med, .unv, .cdb)");
+  line.output("-o,--output", request.output, "mesh file to write (.mesh.h5)");
+  line.flag("--check", a->check,
+            "list all that a deck holds: read, passed over, refused with its line; writes nothing");
   line.option("--element-size-mm", request.element_size_mm,
               "element size; default: from the description, for CAD alone from its volume");
   line.option("--units", request.units, "units of a deck: mm-t-s, m-kg-s, ... (see below)");
   line.option("--ignore", request.ignore,
               "card, keyword, element kind or group of a deck to skip; may be repeated");
+  line.option("--mass", request.mass,
+              "mass matrix in the recipe of a deck: as in the deck (default), consistent, lumped");
   line.output("--recipe", a->recipe,
               "also write materials, couplings, supports and loads of a deck (.fe.toml)");
   line.option("--parts", a->parts, "also divide the cells into this many connected parts (METIS)");

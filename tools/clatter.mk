@@ -4,7 +4,7 @@
 #   part.mesh.toml -> part.mesh.h5 -> part.fe.h5 (+ part.fe.toml) -> part.rom.h5 (+ part.rom.toml)
 #   part.fe.h5 (+ part.modes.toml) -> part.modes.h5;  part.fe.h5, part.rom.h5 -> part.compare.txt
 #   part.rom.h5 (+ part.sound.toml) -> part.sound.h5, of use in field.toml
-#   part.rom.h5 -> part.mtx, part.inp, part.pch, part.fem for other programs
+#   part.rom.h5 -> part.mtx, part.inp, part.pch, part.asm, part.op4, part.SID_FEM, part.fem, part.npy, part.flexascii for other programs
 #   scene.run.toml -> scene.run.h5 -> scene.field.h5 (+ scene.field.toml, or field.toml for all scenes)
 #
 # Name the reduced models of a scene: `slap.run.h5: block.rom.h5 piston.rom.h5`. Every other
@@ -97,7 +97,22 @@ clatter_export = $(call clatter_run,condense) export $(clatter_in) $(call clatte
 %.pch: %.rom.h5 $(clatter_condense)
 	$(clatter_export)
 
+%.asm: %.rom.h5 $(clatter_condense)
+	$(clatter_export)
+
+%.op4: %.rom.h5 $(clatter_condense)
+	$(clatter_export)
+
+%.SID_FEM: %.rom.h5 $(clatter_condense)
+	$(clatter_export)
+
 %.fem: %.rom.h5 $(clatter_condense)
+	$(clatter_export)
+
+%.npy: %.rom.h5 $(clatter_condense)
+	$(clatter_export)
+
+%.flexascii: %.rom.h5 $(clatter_condense)
 	$(clatter_export)
 
 %.mtx: %.rom.h5 $(clatter_condense)

@@ -70,7 +70,7 @@ Constrained constrain(const PartData& part) {
   ObliqueSupports of_points =
       hold_oblique(part, relations.supports, Owners::kPoints, nodal_rigid, eliminator);
   GeneralisedSets faces = couple_faces(part, nodal_rigid, eliminator);
-  drop_unattached(part, relations, eliminator);
+  Motions linked = drop_unattached(part, relations, eliminator);
   const Elimination elimination = eliminator.finish();
 
   Motions motions = own_motions(part, relations);  // then in the order in which ids were added
@@ -78,6 +78,7 @@ Constrained constrain(const PartData& part) {
   append(motions, std::move(means));
   append(motions, std::move(of_points.motions));
   append(motions, std::move(faces.motions));
+  append(motions, std::move(linked));
   held.merge(of_nodes.held);
   held.merge(of_points.held);
   return {.elimination = elimination,
@@ -85,6 +86,7 @@ Constrained constrain(const PartData& part) {
           .rigid_s = rigid_in(elimination.support_of, elimination.supports(), nodal_rigid, motions),
           .grounded = grounded_motions(part, nodal_rigid),
           .springs = relations.springs,
+          .matrix_dofs = relations.matrix_dofs,
           .rigid_of_node = rigid_body_of_nodes(part, relations.references),
           .sets = sets_of_coordinates(part, relations, faces.sets, elimination),
           .grids = std::move(faces.grids),

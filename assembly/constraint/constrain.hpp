@@ -20,8 +20,9 @@ struct Constrained {
   Eigen::MatrixXd rigid_s;   // n_s x 6: the same in supported coordinates
   Eigen::MatrixXd grounded;  // k x 6: rigid motions c with grounded c = 0 satisfy all equations and
                              // stretch no spring
-  std::vector<Functional> springs;     // elongation of each [[spring]]
-  std::vector<int32_t> rigid_of_node;  // n_nodes: id of the rigid body that it belongs to, or -1
+  std::vector<Functional> springs;      // elongation of each [[spring]]
+  std::vector<Functional> matrix_dofs;  // of each [[matrix]]: one id per row
+  std::vector<int32_t> rigid_of_node;   // n_nodes: id of the rigid body that it belongs to, or -1
   std::map<std::string, rom::DofSet> sets;
   std::map<std::string, rom::ContactGrid> grids;
   std::vector<HeldDof> held;    // n_s, in the order of the supported coordinates

@@ -30,7 +30,7 @@ void ConstraintGraph::depend(int32_t dof, const std::vector<int32_t>& on, int re
   if (held != held_.end() && !may_be_held)
     clash(dof, relation, "makes dependent", held->second, "holds");
   const auto kept = kept_.find(dof);
-  if (kept != kept_.end())
+  if (kept != kept_.end() && !may_be_held)
     clash(dof, relation, "makes dependent", kept->second, "keeps as a coordinate");
   links_[dof] = {relation, may_be_held, on};
   dependents_.push_back(dof);
@@ -47,7 +47,7 @@ void ConstraintGraph::hold(int32_t dof, int relation) {
 
 void ConstraintGraph::keep(int32_t dof, int relation) {
   const auto link = links_.find(dof);
-  if (link != links_.end())
+  if (link != links_.end() && !link->second.may_be_held)
     clash(dof, relation, "keeps as a coordinate", link->second.relation, "makes dependent");
   const auto held = held_.find(dof);
   if (held != held_.end()) clash(dof, relation, "keeps as a coordinate", held->second, "holds");

@@ -25,9 +25,8 @@ void append_motions(const std::vector<Functional>& functionals, const Eigen::Mat
 /// DoFs of sensors, node sets and points: they stay coordinates.
 std::vector<int32_t> kept_dofs(const PartData& part, const Relations& relations) {
   std::vector<int32_t> kept;
-  for (const std::vector<int32_t>& nodes : relations.kept_nodes)
-    for (const int32_t node : nodes)
-      for (int d = 0; d < 3; ++d) kept.push_back(3 * node + d);
+  for (const std::vector<KeptDof>& set : relations.kept)
+    for (const KeptDof& dof : set) kept.push_back(part.numbers.of(dof.owner, dof.direction));
   for (size_t p = 0; p < part.numbers.points().size(); ++p)
     for (const int32_t id : point_dofs(part.numbers, static_cast<int32_t>(p)).ids)
       kept.push_back(id);

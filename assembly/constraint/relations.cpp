@@ -55,18 +55,36 @@ int32_t nearest_node(const RowMatrix& coordinates, const NodeSpec& spec,
   return nearest;
 }
 
-/// Sensors use the nearest node of their surface. All these displacements stay coordinates.
-std::vector<std::vector<int32_t>> gather_kept_nodes(const PartData& part, ConstraintGraph& graph) {
-  std::vector<std::vector<int32_t>> all;
+/// The nodes and points of one selection; a sensor uses the nearest node of its surface.
+std::vector<NodeOrPoint> owners_of(const PartData& part, const NodeSpec& spec,
+                                   const TermSpec& term) {
+  std::vector<NodeOrPoint> owners = selected(term.selection, part.mesh, part.numbers);
+  if (!spec.near) return owners;
+  std::vector<int32_t> nodes;
+  for (const NodeOrPoint owner : owners) nodes.push_back(owner.index);
+  return {NodeOrPoint::of_node(nearest_node(part.mesh.nodes, spec, nodes))};
+}
+
+/// All these displacements stay coordinates.
+std::vector<std::vector<KeptDof>> gather_kept(const PartData& part, ConstraintGraph& graph) {
+  std::vector<std::vector<KeptDof>> all;
   for (const NodeSpec& spec : part.recipe.nodes) {
-    const int relation = graph.add_relation(spec.selection.where);
-    std::vector<int32_t> nodes;
-    for (const NodeOrPoint owner : selected(spec.selection, part.mesh, part.numbers))
-      nodes.push_back(owner.index);
-    if (spec.near) nodes = {nearest_node(part.mesh.nodes, spec, nodes)};
-    for (const int32_t node : nodes)
-      for (int d = 0; d < 3; ++d) graph.keep(3 * node + d, relation);
-    all.push_back(std::move(nodes));
+    const int relation = graph.add_relation(spec.where);
+    std::vector<KeptDof> kept;
+    std::map<int32_t, int32_t> number_of;  // by owner: one in several terms counts once
+    for (const TermSpec& term : spec.terms)
+      for (const NodeOrPoint owner : owners_of(part, spec, term)) {
+        const auto next = static_cast<int32_t>(number_of.size());
+        const int32_t number = number_of.emplace(owner.index, next).first->second;
+        for (int d = 0; d < 6; ++d) {
+          const int32_t id = part.numbers.of(owner, d);
+          if (id < 0 || (!term.directions.empty() && !std::ranges::count(term.directions, d)))
+            continue;
+          graph.keep(id, relation);
+          kept.push_back({owner, d, number});
+        }
+      }
+    all.push_back(std::move(kept));
   }
   return all;
 }
@@ -175,6 +193,19 @@ std::vector<Functional> elongations(const PartData& part) {
   return all;
 }
 
+std::vector<Functional> matrix_dofs(const PartData& part) {
+  std::vector<Functional> all;
+  for (const MatrixSpec& spec : part.recipe.matrices) {
+    Functional rows;
+    for (const EquationSpec::Term& term : spec.terms) {
+      rows.dofs.push_back(term_of(part, term).dofs[0]);
+      rows.values.push_back(1.0);
+    }
+    all.push_back(std::move(rows));
+  }
+  return all;
+}
+
 Dependences gather_straight_edges(const PartData& part, ConstraintGraph& graph) {
   Dependences all;
   for (const StraightEdgesSpec& spec : part.recipe.straight_edges) {
@@ -224,7 +255,7 @@ Relations gather_relations(const PartData& part) {
   ConstraintGraph graph([&](int32_t id) { return part.numbers.name(id, part.mesh.node_ids); });
   const auto first_id = static_cast<int32_t>(part.numbers.count());
   std::vector<HeldGroup> supports = gather_supports(part, graph);
-  std::vector<std::vector<int32_t>> kept_nodes = gather_kept_nodes(part, graph);
+  std::vector<std::vector<KeptDof>> kept = gather_kept(part, graph);
   CouplingRelations couplings = gather_couplings(part, first_id, graph);
   Dependences equations = gather_equations(part, graph);
   std::vector<Functional> springs = elongations(part);
@@ -235,10 +266,11 @@ Relations gather_relations(const PartData& part) {
   for (Dependences* kind : {&couplings.dependences, &equations, &edges, &ties.dependences})
     kinds.push_back(std::move(*kind));
   return {.supports = std::move(supports),
-          .kept_nodes = std::move(kept_nodes),
+          .kept = std::move(kept),
           .references = std::move(couplings.references),
           .onto_points = std::move(couplings.onto_points),
           .springs = std::move(springs),
+          .matrix_dofs = matrix_dofs(part),
           .bolts = std::move(ties.bolts),
           .dependences = ordered(graph.order(), std::move(kinds))};
 }
@@ -270,6 +302,18 @@ Eigen::MatrixXd grounded_motions(const PartData& part, const Eigen::MatrixXd& no
   };
   for (const EquationSpec& spec : part.recipe.equations) note(spec.terms);
   for (const SpringSpec& spec : part.recipe.springs) note(spec.terms);
+  for (const MatrixSpec& spec : part.recipe.matrices) {
+    if (spec.is_mass) continue;
+    Eigen::MatrixXd motion(spec.values.cols(), 6);
+    for (size_t i = 0; i < spec.terms.size(); ++i)
+      motion.row(static_cast<Eigen::Index>(i)) =
+          nodal_rigid.row(term_of(part, spec.terms[i]).dofs[0]);
+    const Eigen::MatrixXd force = spec.values * motion;
+    const double alone = (spec.values.cwiseAbs() * motion.cwiseAbs()).maxCoeff();
+    for (Eigen::Index i = 0; i < force.rows(); ++i)
+      if ((force.row(i).cwiseAbs().array() > kGrounded * alone).any())
+        rows.emplace_back(force.row(i) / alone);
+  }
   Eigen::MatrixXd all(static_cast<Eigen::Index>(rows.size()), 6);
   for (size_t r = 0; r < rows.size(); ++r) all.row(static_cast<Eigen::Index>(r)) = rows[r];
   return all;

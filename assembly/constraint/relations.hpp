@@ -22,14 +22,22 @@ struct OntoPoint {
   std::string where;
 };
 
+/// A DoF of a [[nodes]] or [[sensor]], which stays a coordinate.
+struct KeptDof {
+  NodeOrPoint owner;
+  int direction = 0;
+  int32_t number = 0;  // of the node or point in its set
+};
+
 /// All relations. The DoFs of own reference nodes have the ids after those of nodes and points, six
 /// for each rigid coupling; the bolts' shortenings have the next ones; both in the recipe's order.
 struct Relations {
   std::vector<HeldGroup> supports;
-  std::vector<std::vector<int32_t>> kept_nodes;     // of each [[nodes]] and [[sensor]]
+  std::vector<std::vector<KeptDof>> kept;           // of each [[nodes]] and [[sensor]]
   std::map<std::string, ReferenceDofs> references;  // own ones of rigid couplings, by coupling
   std::vector<OntoPoint> onto_points;
   std::vector<Functional> springs;           // elongation of each [[spring]]
+  std::vector<Functional> matrix_dofs;       // of each [[matrix]]: one id per row
   std::map<std::string, rom::DofSet> bolts;  // the shortening of each; its DoF is an id
   std::vector<Dependence> dependences;       // each after those that it depends on
 };
@@ -42,8 +50,9 @@ Relations gather_relations(const PartData& part);
 std::vector<int32_t> rigid_body_of_nodes(const PartData& part,
                                          const std::map<std::string, ReferenceDofs>& references);
 
-/// Values of equations and elongations of springs for the six unit rigid motions, each relative to
-/// its largest term; those that are zero for each motion are left out.
+/// Values of equations, elongations of springs and forces of stiffness matrices for the six unit
+/// rigid motions, each relative to its largest term; those that are zero for each motion are left
+/// out.
 /// @param nodal_rigid n_dofs x 6: unit rigid motions of nodes and points. @return k x 6.
 Eigen::MatrixXd grounded_motions(const PartData& part, const Eigen::MatrixXd& nodal_rigid);
 

@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
+#include <unordered_map>
 
 #include "assembly/constraint/coupling_members.hpp"
 #include "core/base/error.hpp"
@@ -13,29 +17,49 @@
 namespace clatter::assembly {
 namespace {
 
+constexpr double kStill = 1e-12;  // of squared sines: directions equal to 1e-6
+
 /// By id of nodes, points and own reference nodes.
 struct IdFlags {
   std::vector<bool> moves;    // nodes or springs
   std::vector<bool> massive;  // has a [[point_mass]]
 };
 
-/// Ids that nodes or springs depend on.
+/// Calls body(functional) for each spring and each row of a stiffness matrix.
+template <class Body>
+void for_each_elastic(const PartData& part, const Relations& relations, const Body& body) {
+  for (const Functional& spring : relations.springs) body(spring);
+  for (size_t m = 0; m < relations.matrix_dofs.size(); ++m)
+    for (const int32_t id : relations.matrix_dofs[m].dofs)
+      if (!part.recipe.matrices[m].is_mass) body(Functional{{id}, {1.0}});
+}
+
+/// Ids that nodes, springs or stiffness matrices depend on.
 std::vector<bool> moving_ids(const PartData& part, const Relations& relations,
                              Eliminator& eliminator) {
   std::vector<bool> moves = eliminator.moves_nodes(part.numbers.nodal());
-  for (const Functional& spring : relations.springs) {
-    for (const int32_t id : spring.dofs) moves[static_cast<size_t>(id)] = true;
-    for (const int32_t id : eliminator.express(spring).dofs) moves[static_cast<size_t>(id)] = true;
-  }
+  for_each_elastic(part, relations, [&](const Functional& one) {
+    for (const int32_t id : one.dofs) moves[static_cast<size_t>(id)] = true;
+    for (const int32_t id : eliminator.express(one).dofs) moves[static_cast<size_t>(id)] = true;
+  });
   return moves;
 }
 
-/// Ids with mass of a [[point_mass]] on a point or on the reference of a rigid coupling.
+/// Ids with mass of a [[point_mass]] on a point or on the reference of a rigid coupling, or of a
+/// mass matrix.
 std::vector<bool> massive_ids(const PartData& part, const Relations& relations,
                               Eliminator& eliminator) {
   const Recipe& recipe = part.recipe;
   std::vector<bool> massive(static_cast<size_t>(part.numbers.count()) +
                             6 * relations.references.size());
+  const auto add = [&](int32_t of) {
+    for (const int32_t id : eliminator.express({{of}, {1.0}}).dofs)
+      if (static_cast<size_t>(id) < massive.size()) massive[static_cast<size_t>(id)] = true;
+  };
+  for (size_t m = 0; m < recipe.matrices.size(); ++m)
+    for (size_t i = 0; i < recipe.matrices[m].terms.size(); ++i)
+      if (recipe.matrices[m].is_mass && !recipe.matrices[m].values.row(i).isZero(0.0))
+        add(relations.matrix_dofs[m].dofs[i]);
   for (const PointMassSpec& spec : recipe.point_masses) {
     const auto own = relations.references.find(spec.on);
     const bool is_point = std::any_of(recipe.points.begin(), recipe.points.end(),
@@ -44,50 +68,158 @@ std::vector<bool> massive_ids(const PartData& part, const Relations& relations,
     const ReferenceDofs reference =
         is_point ? point_dofs(part.numbers, point_named(part, spec.on)) : own->second;
     const bool turns = !spec.inertia.isZero(0.0) || !spec.offset.isZero(0.0);
-    for (size_t d = 0; d < (turns ? 6 : 3); ++d)
-      for (const int32_t id : eliminator.express({{reference.ids[d]}, {1.0}}).dofs)
-        if (static_cast<size_t>(id) < massive.size()) massive[static_cast<size_t>(id)] = true;
+    for (size_t d = 0; d < (turns ? 6 : 3); ++d) add(reference.ids[d]);
   }
   return massive;
 }
 
-/// Drops the unattached DoFs of one reference node; `where` is its entry in the recipe.
-void drop_loose(const std::string& name, const std::string& where, const ReferenceDofs& reference,
-                const IdFlags& flags, Eliminator& eliminator) {
+/// A reference node; `where` is its entry in the recipe.
+struct Reference {
+  std::string name, where;
+  ReferenceDofs dofs;
+};
+
+std::vector<Reference> references_of(const PartData& part, const Relations& relations) {
+  std::vector<Reference> all;
+  const std::vector<PointSpec>& points = part.recipe.points;
+  for (size_t p = 0; p < points.size(); ++p)
+    all.push_back(
+        {points[p].point.name, points[p].where, point_dofs(part.numbers, static_cast<int32_t>(p))});
+  for (const CouplingSpec& spec : part.recipe.couplings)
+    if (const auto own = relations.references.find(spec.name); own != relations.references.end())
+      all.push_back({spec.name, spec.where, own->second});
+  return all;
+}
+
+[[noreturn]] void refuse_mass(const Reference& reference, const std::string& direction) {
+  throw InputError(
+      fmt::format("{}: found a mass on {} with nothing attached, expected a "
+                  "coupling, an equation or a support",
+                  reference.where, direction));
+}
+
+/// Drops the unattached DoFs of one reference node.
+void drop_loose(const Reference& reference, const IdFlags& flags, Eliminator& eliminator) {
   std::vector<const char*> loose;
   bool attached = false;
   for (size_t d = 0; d < 6; ++d) {
-    const int32_t id = reference.ids[d];
+    const int32_t id = reference.dofs.ids[d];
     const bool moves = flags.moves[static_cast<size_t>(id)];
     attached = attached || moves || eliminator.is_eliminated(id);
     if (!eliminator.is_coordinate(id) || moves) continue;
     loose.push_back(kDofNames[d]);
-    if (flags.massive[static_cast<size_t>(id)])
-      throw InputError(
-          fmt::format("{}: found a mass on {} with nothing attached, expected a "
-                      "coupling, an equation or a support",
-                      where, kDofNames[d]));
+    if (flags.massive[static_cast<size_t>(id)]) refuse_mass(reference, kDofNames[d]);
     eliminator.drop(id);
   }
   if (!attached)
-    throw InputError(
-        fmt::format("{}: found nothing attached to it, expected a coupling or an equation", where));
+    throw InputError(fmt::format(
+        "{}: found nothing attached to it, expected a coupling or an equation", reference.where));
   if (!loose.empty())
-    say(fmt::format("{}: {} omitted: nothing is attached", name, fmt::join(loose, " ")));
+    say(fmt::format("{}: {} omitted: nothing is attached", reference.name, fmt::join(loose, " ")));
+}
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// G = sum r r^T over the rows of T of nodes, springs and stiffness matrices, r their entries for
+/// the six DoFs of each reference: G n = 0 when the motion n moves nothing.
+std::vector<Matrix6> motion_grams(const PartData& part, const Relations& relations,
+                                  const std::vector<Reference>& references,
+                                  Eliminator& eliminator) {
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  std::unordered_multimap<int32_t, std::pair<size_t, Eigen::Index>> place;  // of their ids
+  std::vector<Matrix6> grams(references.size(), Matrix6::Zero());
+  for (size_t k = 0; k < references.size(); ++k)
+    for (Eigen::Index d = 0; d < 6; ++d) {
+      const int32_t id = references[k].dofs.ids[static_cast<size_t>(d)];
+      if (!eliminator.is_coordinate(id)) continue;
+      place.emplace(id, std::pair(k, d));
+      if (id < part.numbers.nodal()) grams[k](d, d) += 1.0;  // a point on a node moves the node
+    }
+  const auto add = [&](const Functional& one) {
+    std::map<size_t, Vector6> rows;  // by reference
+    const Functional row = eliminator.express(one);
+    for (size_t k = 0; k < row.dofs.size(); ++k) {
+      const auto [first, last] = place.equal_range(row.dofs[k]);
+      for (auto at = first; at != last; ++at)
+        rows.try_emplace(at->second.first, Vector6::Zero()).first->second(at->second.second) =
+            row.values[k];
+    }
+    for (const auto& [k, r] : rows) grams[k] += r * r.transpose();
+  };
+  for (int64_t dof = 0; dof < part.numbers.nodal() && !place.empty(); ++dof)
+    if (const auto id = static_cast<int32_t>(dof); eliminator.is_eliminated(id)) add({{id}, {1.0}});
+  for_each_elastic(part, relations, add);
+  return grams;
+}
+
+/// How many independent motions of those that move something alone move nothing together.
+int still_motions(const Eigen::MatrixXd& gram) {
+  std::vector<Eigen::Index> moving;
+  for (Eigen::Index d = 0; d < gram.rows(); ++d)
+    if (gram(d, d) > 0.0) moving.push_back(d);
+  if (moving.empty()) return 0;
+  const Eigen::VectorXd scale = gram.diagonal()(moving).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      scale.asDiagonal() * gram(moving, moving) * scale.asDiagonal(), Eigen::EigenvaluesOnly);
+  return static_cast<int>((eigen.eigenvalues().array() <= kStill).count());
+}
+
+std::string axis_text(const Eigen::Vector3d& axis) {
+  return fmt::format("rotation about ({:.4g}, {:.4g}, {:.4g})", axis(0), axis(1), axis(2));
+}
+
+/// Replaces the three rotations of a reference by those about the axes `kept`.
+void replace_rotations(const Reference& reference, const Eigen::Matrix3Xd& kept,
+                       Eliminator& eliminator, Motions& motions) {
+  const auto count = static_cast<int>(kept.cols());
+  const int32_t first = eliminator.add_coordinates(count);
+  for (int d = 0; d < 3; ++d) {
+    Functional theta;
+    for (int k = 0; k < count; ++k) {
+      theta.dofs.push_back(first + k);
+      theta.values.push_back(kept(d, k));
+    }
+    eliminator.depend(reference.dofs.ids[static_cast<size_t>(d) + 3], theta);
+  }
+  for (const auto& axis : kept.colwise()) {
+    Eigen::RowVectorXd motion = Eigen::RowVectorXd::Zero(6);
+    motion.tail<3>() = axis.transpose();
+    motions.push_back(motion);
+  }
+}
+
+/// Omits the rotations of a reference that move nothing, unless displacements take part in such a
+/// motion: that is refused later. @param gram of motion_grams().
+void omit_still_rotations(const Reference& reference, const Matrix6& gram, const IdFlags& flags,
+                          Eliminator& eliminator, Motions& motions) {
+  const auto& ids = reference.dofs.ids;
+  const auto all = [&](const auto& is) { return std::all_of(ids.begin() + 3, ids.end(), is); };
+  if (!all([&](int32_t id) { return eliminator.is_coordinate(id); })) return;
+  const Eigen::Matrix3d rotations = gram.bottomRightCorner<3, 3>();
+  const int still = still_motions(rotations);
+  if (still == 0 || still != still_motions(gram)) return;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(rotations);
+  for (int k = 0; k < still; ++k) {
+    const Eigen::Vector3d axis = eigen.eigenvectors().col(k);
+    if (!all([&](int32_t id) { return !flags.massive[static_cast<size_t>(id)]; }))
+      refuse_mass(reference, axis_text(axis));
+    say(fmt::format("{}: {} omitted: nothing is attached", reference.name, axis_text(axis)));
+  }
+  replace_rotations(reference, eigen.eigenvectors().rightCols(3 - still), eliminator, motions);
 }
 
 }  // namespace
 
-void drop_unattached(const PartData& part, const Relations& relations, Eliminator& eliminator) {
+Motions drop_unattached(const PartData& part, const Relations& relations, Eliminator& eliminator) {
   const IdFlags flags{moving_ids(part, relations, eliminator),
                       massive_ids(part, relations, eliminator)};
-  const std::vector<PointSpec>& points = part.recipe.points;
-  for (size_t p = 0; p < points.size(); ++p)
-    drop_loose(points[p].point.name, points[p].where,
-               point_dofs(part.numbers, static_cast<int32_t>(p)), flags, eliminator);
-  for (const CouplingSpec& spec : part.recipe.couplings)
-    if (const auto own = relations.references.find(spec.name); own != relations.references.end())
-      drop_loose(spec.name, spec.where, own->second, flags, eliminator);
+  const std::vector<Reference> references = references_of(part, relations);
+  for (const Reference& reference : references) drop_loose(reference, flags, eliminator);
+  const std::vector<Matrix6> grams = motion_grams(part, relations, references, eliminator);
+  Motions motions;
+  for (size_t k = 0; k < references.size(); ++k)
+    omit_still_rotations(references[k], grams[k], flags, eliminator, motions);
+  return motions;
 }
 
 }  // namespace clatter::assembly

@@ -129,6 +129,10 @@ BuiltModel import_matrices(const MatrixFiles& files, const mesh::Mesh* mesh) {
   model.T = displacement_of(layout, coordinate, size);
   model.sets = sets_of(layout, coordinate);
   if (mesh) model.surfaces = mesh->surfaces;
+  // The other program's units and numbers are those of the deck for exports.
+  model.deck.units = files.units.name;
+  for (const rom::MappedDof& dof : layout.dofs)
+    model.deck.largest_node = std::max(model.deck.largest_node, dof.node);
   const auto held = static_cast<double>(coordinate.size() - kept.size());
   built.certificate.dofs = size;
   built.certificate.held_dofs = held;

@@ -136,6 +136,7 @@ std::map<std::string, rom::DofSet> sets_of(const MatrixRows& layout,
       set.position.row(row) = dof.position;
       set.direction.row(row) = dof.direction;
       set.is_rotation.push_back(dof.kind == Kind::kRotation ? 1 : 0);
+      set.node_ids.push_back(dof.node);
     }
   }
   return sets;

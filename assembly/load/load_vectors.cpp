@@ -8,6 +8,7 @@
 
 #include "assembly/load/centrifugal_load.hpp"
 #include "assembly/load/load_case.hpp"
+#include "assembly/load/nodal_matrix.hpp"
 #include "assembly/load/point_mass.hpp"
 #include "assembly/load/thermal_load.hpp"
 #include "core/base/error.hpp"
@@ -25,6 +26,21 @@ int32_t find_point(const Recipe& recipe, const std::string& name) {
   return -1;
 }
 
+/// M a of the [[matrix]] tables on their displacements; `acceleration` at a position.
+template <class Field>
+void add_matrix_forces(const PartData& part, const Field& acceleration, Eigen::VectorXd& forces) {
+  for (const MatrixSpec& spec : part.recipe.matrices) {
+    if (!spec.is_mass) continue;
+    const std::vector<MatrixRow> rows = rows_of(spec, part.mesh, part.numbers);
+    Eigen::VectorXd a = Eigen::VectorXd::Zero(spec.values.rows());
+    for (size_t i = 0; i < rows.size(); ++i)
+      if (rows[i].direction < 3)
+        a(static_cast<Eigen::Index>(i)) = acceleration(rows[i].position)(rows[i].direction);
+    const Eigen::VectorXd f = spec.values * a;
+    for (size_t i = 0; i < rows.size(); ++i) forces(rows[i].id) += f(static_cast<Eigen::Index>(i));
+  }
+}
+
 /// rho a on the elements, m a on the masses of points.
 Eigen::VectorXd body_force(const PartData& part, const Eigen::MatrixXd& momentum,
                            const Eigen::Vector3d& acceleration) {
@@ -40,6 +56,8 @@ Eigen::VectorXd body_force(const PartData& part, const Eigen::MatrixXd& momentum
       forces(part.numbers.of_point(point, d + 3)) += moment(d);
     }
   }
+  add_matrix_forces(
+      part, [&](const Eigen::Vector3d&) { return acceleration; }, forces);
   return forces;
 }
 
@@ -56,6 +74,8 @@ Eigen::VectorXd rotation_force(const PartData& part, const LoadSpec& load) {
     const auto force = centrifugal_force(spec, position, load.axis);
     for (int d = 0; d < 6; ++d) forces(part.numbers.of_point(point, d)) += force(d);
   }
+  add_matrix_forces(
+      part, [&](const Eigen::Vector3d& at) { return load.axis.arm(at); }, forces);
   return forces;
 }
 

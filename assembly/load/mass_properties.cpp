@@ -17,6 +17,7 @@ Eigen::Matrix3d inertia_of(const Eigen::Matrix3d& second) {
 }  // namespace
 
 MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<fe::Material>& materials) {
+  if (mesh.nodes.rows() == 0) return {};
   const Eigen::Vector3d about = mesh.nodes.colwise().mean().transpose();
   double mass = 0.0;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
@@ -38,6 +39,7 @@ MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<fe::Materia
 void add_point(MassMoments& moments, double mass, const Eigen::Vector3d& position,
                const Eigen::Matrix3d& inertia) {
   const double total = moments.mass + mass;
+  if (!(total > 0.0)) return;
   const Eigen::Vector3d arm = position - moments.centre;
   // J = tr(S) I - S has the inverse S = tr(J)/2 I - J; both S move to the common centre (Steiner).
   moments.second += moments.mass / total * mass * arm * arm.transpose() +

@@ -27,9 +27,13 @@ void check_takes(const PointMassSpec& spec, const rom::DofSet& set) {
   if (set.kind == "contact_grid" || set.kind == "mean" || set.kind == "bolt")
     throw InputError(fmt::format("{}: found a set of kind {}, expected a coupling, point or nodes",
                                  spec.where, set.kind));
-  if (!has_rotations(set) && set.dofs.size() % 3 != 0)
-    throw InputError(
-        fmt::format("{}: found {} directions, expected x y z", spec.where, set.dofs.size()));
+  for (size_t k = 0; k < set.dofs.size(); ++k)
+    if (!has_rotations(set) && dof_of(set, k) != static_cast<int>(k % 3))
+      throw InputError(
+          fmt::format("{}: found {}, expected x y z of each node", spec.where, set.labels[k]));
+  if (has_rotations(set) ? set.dofs.size() > 6 : set.dofs.size() % 3 != 0)
+    throw InputError(fmt::format("{}: found {} directions, expected x y z of nodes, or one point",
+                                 spec.where, set.dofs.size()));
   const bool needs_turn = !spec.inertia.isZero(0.0) || !spec.offset.isZero(0.0);
   if (needs_turn && !has_rotations(set))
     throw InputError(

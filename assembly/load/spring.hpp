@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Springs between nodes and points, or to the ground.
+// Springs between nodes and points, or to the ground; matrices between them.
 #include <vector>
 
 #include "assembly/constraint/elimination.hpp"
@@ -17,5 +17,11 @@ namespace clatter::assembly {
 /// @param K [N/m].
 void add_springs(const std::vector<SpringSpec>& springs, const std::vector<Functional>& elongations,
                  const Elimination& elimination, CoordinateBlocks& K);
+
+/// Adds the [[matrix]] tables of one kind in the same way: S on the DoFs C u adds
+/// (C T)^T S (C T) to qq.
+/// @param dofs of each of `matrices`: one id per row. @param A stiffness, or mass when `of_mass`.
+void add_matrices(const std::vector<MatrixSpec>& matrices, const std::vector<Functional>& dofs,
+                  bool of_mass, const Elimination& elimination, CoordinateBlocks& A);
 
 }  // namespace clatter::assembly

@@ -10,12 +10,14 @@
 #include "assembly/heat/solve_heat.hpp"
 #include "assembly/load/load_vectors.hpp"
 #include "assembly/load/mass_properties.hpp"
+#include "assembly/load/nodal_matrix.hpp"
 #include "assembly/load/point_mass.hpp"
 #include "assembly/load/spring.hpp"
 #include "assembly/model/certify.hpp"
 #include "assembly/model/check.hpp"
 #include "core/base/named.hpp"
 #include "core/fe/assemble.hpp"
+#include "core/rom/rigid_mass.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -144,7 +146,7 @@ void add_point_masses(CoordinateBlocks& M, const PartData& part, const Constrain
   M.qq.makeCompressed();
 }
 
-/// Of the cells and point masses.
+/// Of the cells, point masses and mass matrices.
 rom::MassProperties mass_of(const PartData& part, const Constrained& constrained) {
   MassMoments moments = integrate_mass(part.mesh, part.recipe.materials);
   for (const PointMassSpec& spec : part.recipe.point_masses) {
@@ -155,6 +157,12 @@ rom::MassProperties mass_of(const PartData& part, const Constrained& constrained
       const Eigen::Vector3d& position = part.numbers.points()[static_cast<size_t>(point)].position;
       add_point(moments, spec.mass, position + spec.offset, spec.inertia);
     }
+  }
+  const auto matrices =
+      rigid_mass_of(part.recipe, part.mesh, part.numbers, constrained.nodal_rigid);
+  if (matrices.topLeftCorner<3, 3>().trace() > 0.0) {
+    const rom::MassProperties added = rom::properties_of(matrices, Eigen::Vector3d::Zero());
+    add_point(moments, added.mass, added.centre, added.inertia);
   }
   return properties_of(moments);
 }
@@ -182,6 +190,8 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
   CoordinateBlocks K = transform_with_supports(std::move(nodal.K), elimination);
   CoordinateBlocks M = mass_blocks(std::move(nodal.M), elimination);
   add_springs(recipe.springs, constrained.springs, elimination, K);
+  add_matrices(recipe.matrices, constrained.matrix_dofs, false, elimination, K);
+  add_matrices(recipe.matrices, constrained.matrix_dofs, true, elimination, M);
   clock.lap("transform");
   add_point_masses(M, part, constrained, points);
   const rom::MassProperties mass = mass_of(part, constrained);
@@ -212,9 +222,10 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
                 .surfaces = mesh.surfaces,
                 .cells = {mesh.regions, recipe.materials, mesh.cells, mesh.node_ids},
                 .mass = mass,
+                .deck = mesh.deck,
                 .load_units = std::move(loads.units)},
       .certificate = {}};
-  built.certificate = certify(built.model, constrained, recipe.mass);
+  built.certificate = certify(built.model, constrained, recipe);
   clock.lap("certificate");
   return built;
 }

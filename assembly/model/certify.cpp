@@ -58,7 +58,8 @@ void require_below(const std::string& name, const char* what, double found, doub
 
 }  // namespace
 
-FeCertificate certify(const fe::FeModel& model, const Constrained& constrained, fe::MassForm mass) {
+FeCertificate certify(const fe::FeModel& model, const Constrained& constrained,
+                      const Recipe& recipe) {
   const Elimination& elimination = constrained.elimination;
   FeCertificate numbers;
   numbers.dofs = model.size();
@@ -78,7 +79,7 @@ FeCertificate certify(const fe::FeModel& model, const Constrained& constrained, 
 
   const Eigen::MatrixXd motions = free_motions(constrained.grounded);
   numbers.rigid_motions_held_by_equations = static_cast<double>(6 - motions.cols());
-  if (motions.cols() == 0) return numbers;
+  if (motions.cols() == 0 || model.nodes.rows() == 0) return numbers;
   const Eigen::MatrixXd nodal = constrained.nodal_rigid.topRows(model.T.rows()) * motions;
   Eigen::MatrixXd recovered = model.T * (model.rigid * motions);
   if (model.supports.size() > 0) recovered += model.supports.T * (model.supports.rigid * motions);
@@ -89,15 +90,17 @@ FeCertificate certify(const fe::FeModel& model, const Constrained& constrained, 
   numbers.rigid_force_residue = rigid_force(model, motions);
   require_below(model.name, "force of rigid motions, |K R| / |K| |R|", *numbers.rigid_force_residue,
                 kRigidTolerance);
-  // A supported model's M lacks the mass of the held DoFs.
-  if (elimination.supports() > 0 || motions.cols() < 6) return numbers;
+  // A supported model's M lacks the mass of the held DoFs; a mass matrix need not be that of a
+  // body.
+  const bool bodies = std::ranges::none_of(recipe.matrices, &MatrixSpec::is_mass);
+  if (elimination.supports() > 0 || motions.cols() < 6 || !bodies) return numbers;
   const MassDifference error = compare(properties_of(model.M, model.rigid), model.mass);
   numbers.mass_error = error.mass;
   numbers.centre_error = error.centre;
   numbers.inertia_error = error.inertia;
   require_below(model.name, "mass, R^T M R against the sum over the elements", error.mass,
                 kMassTolerance);
-  if (mass == fe::MassForm::kHrz) return numbers;
+  if (recipe.mass == fe::MassForm::kHrz) return numbers;
   require_below(model.name, "centre of gravity, R^T M R against the sum over the elements",
                 error.centre, kMassTolerance);
   require_below(model.name, "inertia, R^T M R against the sum over the elements", error.inertia,

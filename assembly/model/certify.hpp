@@ -17,6 +17,7 @@ namespace clatter::assembly {
 /// NumericsError when mass, centre or inertia differ by more than 1e-9 (hard case B5), or when
 /// rigid motions cause forces or are not recovered to 1e-9.
 /// A lumped mass preserves only the total: centre and inertia are measured, not required.
-FeCertificate certify(const fe::FeModel& model, const Constrained& constrained, fe::MassForm mass);
+FeCertificate certify(const fe::FeModel& model, const Constrained& constrained,
+                      const Recipe& recipe);
 
 }  // namespace clatter::assembly

@@ -20,7 +20,8 @@ constexpr double kNoMass = 1e-13;       // least eigenvalue of a reference's sca
 void check_references(const std::string& name, const std::map<std::string, rom::DofSet>& sets,
                       const SparseMatrix& M) {
   for (const auto& [set_name, set] : sets) {
-    if (!has_rotations(set)) continue;
+    // A set of several points: each of them is a set too.
+    if (!has_rotations(set) || set.dofs.size() > 6) continue;
     std::vector<int32_t> dofs = set.dofs;
     std::erase_if(dofs, [&](int32_t dof) { return M.coeff(dof, dof) == 0.0; });
     const auto n = static_cast<Eigen::Index>(dofs.size());
@@ -44,7 +45,7 @@ void check_references(const std::string& name, const std::map<std::string, rom::
 
 void check_stiffness(const mesh::Mesh& mesh, const std::map<std::string, rom::DofSet>& sets,
                      const SparseMatrix& K) {
-  if (K.rows() == 0) return;
+  if (K.rows() == 0 || mesh.nodes.rows() == 0) return;
   const Eigen::VectorXd diagonal = K.diagonal();
   const double length = (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm();
   for (const auto& [name, set] : sets) {

@@ -149,6 +149,7 @@ Recipe RecipeReader::read() {
   couplings(recipe);
   equations(recipe);
   springs(recipe);
+  matrices(recipe);
   straight_edges(recipe);
   ties(recipe);
   contacts(recipe);

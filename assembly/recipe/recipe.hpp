@@ -35,6 +35,7 @@ struct Selection {
 /// [[point]]: a reference node with six DoFs of its own.
 struct PointSpec {
   ReferencePoint point;
+  int32_t number = 0;  // in the deck of the mesh; 0: none
   std::string where;
 };
 
@@ -46,7 +47,7 @@ struct SupportSpec {
   fe::Axes axes;
 };
 
-/// [[coupling.term]]: nodes and points whose motion defines that of a reference node.
+/// [[coupling.term]], [[nodes.term]]: nodes and points, and some of their directions.
 struct TermSpec {
   Selection selection;
   double weight = 1.0;  // of each node; of each m2 on a surface
@@ -90,6 +91,14 @@ struct SpringSpec {
   std::vector<EquationSpec::Term> terms;
 };
 
+/// [[matrix]]: stiffness or mass between DoFs, beside the cells.
+struct MatrixSpec {
+  std::string name, where;
+  bool is_mass = false;
+  std::vector<EquationSpec::Term> terms;  // one per row; coefficients are unused
+  Eigen::MatrixXd values;                 // symmetric; K [N/m, N, N m], M [kg, kg m, kg m2]
+};
+
 /// [[straight_edges]]: mid-side nodes that move with the mean of the two ends of their edge.
 struct StraightEdgesSpec {
   std::string node_set, where;
@@ -108,10 +117,10 @@ struct MeanSpec {
   std::optional<std::pair<double, double>> range;  // along the direction [m]
 };
 
-/// [[sensor]]: the node of a surface nearest to a point; [[nodes]]: a plain node set.
+/// [[sensor]]: the node of a surface nearest to a point; [[nodes]]: nodes and points.
 struct NodeSpec {
-  std::string name, kind;
-  Selection selection;
+  std::string name, kind, where;
+  std::vector<TermSpec> terms;  // without directions: all that each node or point has
   std::optional<Eigen::Vector3d> near;
 };
 
@@ -192,6 +201,7 @@ struct Recipe {
   std::vector<CouplingSpec> couplings;
   std::vector<EquationSpec> equations;
   std::vector<SpringSpec> springs;
+  std::vector<MatrixSpec> matrices;
   std::vector<StraightEdgesSpec> straight_edges;
   std::vector<TieSpec> ties;  // bolts too
   std::vector<ContactSpec> contacts;

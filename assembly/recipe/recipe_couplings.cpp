@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// [[point]], [[support]], [[coupling]], [[equation]], [[straight_edges]], [[tie]], [[bolt]].
+// [[point]], [[support]], [[coupling]], [[equation]], [[spring]], [[matrix]], [[straight_edges]],
+// [[tie]], [[bolt]].
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "assembly/recipe/recipe_reader.hpp"
 
@@ -21,8 +23,12 @@ void RecipeReader::points(Recipe& recipe) {
         table.fail("node_set", fmt::format("found {} nodes, expected one", nodes.size()));
       spec.point.node = nodes[0];
       spec.point.position = mesh_.nodes.row(nodes[0]).transpose();
+      if (!mesh_.node_ids.empty()) spec.number = mesh_.node_ids[static_cast<size_t>(nodes[0])];
     } else {
       spec.point.position = point(table, "at");
+      if (table.has("number"))
+        spec.number = static_cast<int32_t>(
+            table.integer("number", {1.0, std::numeric_limits<int32_t>::max()}));
     }
     recipe.points.push_back(spec);
   }
@@ -56,27 +62,27 @@ void RecipeReader::reference(const Config& table, CouplingSpec& spec) {
   spec.where = where(table, "coupling " + spec.name);
 }
 
-/// Selections of the table itself, then of its [[coupling.term]] tables.
-std::vector<TermSpec> RecipeReader::terms(const Config& table, const CouplingSpec& spec) const {
+/// Selections of the table itself, then of its `term` tables; `all`: directions of those that have
+/// none.
+std::vector<TermSpec> RecipeReader::terms(const Config& table, const std::string& what,
+                                          const std::vector<int>& all) const {
   std::vector<TermSpec> terms;
   const auto read_selections = [&](const Config& from, const TermSpec& like) {
     TermSpec term = like;
-    term.selection.where = spec.where;
     if (from.has("surface") || from.has("node_set")) {
-      term.selection = selection(from, "coupling " + spec.name);
+      term.selection = selection(from, what);
       terms.push_back(term);
     }
     for (const std::string& name : from.texts_or("points", {})) {
-      term.selection = Selection{"", "", known_point(from, "points", name), spec.where};
+      term.selection = Selection{"", "", known_point(from, "points", name), where(table, what)};
       terms.push_back(term);
     }
   };
-  read_selections(table, {});
+  read_selections(table, {{}, 1.0, all});
   for (const Config& part : table.tables("term")) {
-    if (spec.rigid) table.fail("term", "found terms in a rigid coupling, expected none");
     TermSpec like;
     like.weight = part.number_or("weight", 1.0, Range::positive());
-    like.directions = directions(part, "directions", {0, 1, 2}, 6);
+    like.directions = directions(part, "directions", all, 6);
     const size_t before = terms.size();
     read_selections(part, like);
     if (terms.size() == before)
@@ -92,7 +98,9 @@ void RecipeReader::couplings(Recipe& recipe) {
     CouplingSpec spec;
     reference(table, spec);
     spec.rigid = table.choice("type", {"distributing", "rigid"}) == "rigid";
-    spec.terms = terms(table, spec);
+    if (spec.rigid && !table.tables("term").empty())
+      table.fail("term", "found terms in a rigid coupling, expected none");
+    spec.terms = terms(table, "coupling " + spec.name, {0, 1, 2});
     if (table.has("dofs")) {
       if (spec.rigid || table.has("directions"))
         table.fail("dofs", "found a rigid coupling or directions as well, expected directions");
@@ -140,7 +148,7 @@ void RecipeReader::equations(Recipe& recipe) const {
   }
 }
 
-/// Terms of one spring are either all displacements or all rotations.
+/// Rotations beside displacements have a lever arm.
 void RecipeReader::springs(Recipe& recipe) const {
   for (const Config& table : config_.tables("spring")) {
     SpringSpec spec;
@@ -152,12 +160,40 @@ void RecipeReader::springs(Recipe& recipe) const {
       spec.terms.back().coefficient = part.number_or("coefficient", 1.0);
       if (spec.terms.back().coefficient == 0.0)
         part.fail("coefficient", "found 0, expected a nonzero number");
-      if (spec.terms.back().direction / 3 != spec.terms.front().direction / 3)
-        part.fail("direction",
-                  "found a rotation beside a displacement, expected one kind in a spring");
+      if (spec.terms.back().direction / 3 != spec.terms.front().direction / 3 &&
+          !part.has("coefficient"))
+        part.fail("coefficient",
+                  "found none at a rotation beside a displacement, expected a lever arm [m]");
     }
     if (spec.terms.empty()) table.fail("terms", "found none, expected one (to the ground) or more");
     recipe.springs.push_back(std::move(spec));
+  }
+}
+
+/// K or M as rows, each up to the diagonal.
+void RecipeReader::matrices(Recipe& recipe) const {
+  for (const Config& table : config_.tables("matrix")) {
+    MatrixSpec spec;
+    spec.name = table.text_or("name", fmt::format("matrix_{}", recipe.matrices.size() + 1));
+    spec.where = where(table, "matrix " + spec.name);
+    spec.is_mass = table.has("M");
+    if (spec.is_mass == table.has("K"))
+      table.fail("K", fmt::format("found {}, expected one of K and M",
+                                  spec.is_mass ? "M as well" : "neither K nor M"));
+    for (const Config& part : table.tables("terms"))
+      spec.terms.push_back(term(part, "matrix " + spec.name));
+    const auto n = static_cast<Eigen::Index>(spec.terms.size());
+    const char* key = spec.is_mass ? "M" : "K";
+    const std::vector<double> lower = table.numbers_or(key, {});
+    if (n == 0 || static_cast<Eigen::Index>(lower.size()) != n * (n + 1) / 2)
+      table.fail(key, fmt::format("found {} numbers for {} terms, expected {}: the lower triangle "
+                                  "row by row",
+                                  lower.size(), n, n * (n + 1) / 2));
+    spec.values.resize(n, n);
+    size_t next = 0;
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j <= i; ++j) spec.values(i, j) = spec.values(j, i) = lower[next++];
+    recipe.matrices.push_back(std::move(spec));
   }
 }
 

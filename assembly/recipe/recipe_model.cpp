@@ -18,11 +18,11 @@ void RecipeReader::systems() {
 }
 
 void RecipeReader::materials(Recipe& recipe) const {
-  const Config all = config_.table("material");
+  const auto all = config_.find_table("material");
   std::vector<bool> given(mesh_.regions.size(), false);
   recipe.materials.resize(mesh_.regions.size());
-  for (const std::string& name : all.keys()) {
-    const Config table = all.table(name);
+  for (const std::string& name : all ? all->keys() : std::vector<std::string>()) {
+    const Config table = all->table(name);
     const fe::Material material = fe::read_material(table, systems_);
     for (const std::string& one : table.texts("regions")) {
       const auto index = static_cast<size_t>(region(table, "regions", one));

@@ -50,10 +50,12 @@ class RecipeReader {
   void supports(Recipe& recipe) const;
   void couplings(Recipe& recipe);
   void reference(const Config& table, CouplingSpec& spec);
-  std::vector<TermSpec> terms(const Config& table, const CouplingSpec& spec) const;
+  std::vector<TermSpec> terms(const Config& table, const std::string& what,
+                              const std::vector<int>& all) const;
   EquationSpec::Term term(const Config& table, const std::string& what) const;
   void equations(Recipe& recipe) const;
   void springs(Recipe& recipe) const;
+  void matrices(Recipe& recipe) const;
   void straight_edges(Recipe& recipe) const;
   void ties(Recipe& recipe);
   void contacts(Recipe& recipe);

@@ -73,15 +73,16 @@ void RecipeReader::means(Recipe& recipe) {
 
 void RecipeReader::nodes(Recipe& recipe) {
   for (const Config& table : config_.tables("sensor")) {
-    NodeSpec spec{new_set(table), "sensor", {}, {}};
-    spec.selection.where = where(table, "sensor " + spec.name);
-    spec.selection.surface = surface(table);
+    NodeSpec spec{new_set(table), "sensor", {}, {}, {}};
+    spec.where = where(table, "sensor " + spec.name);
+    spec.terms = {{{surface(table), {}, {}, spec.where}, 1.0, {}}};
     spec.near = point(table, "near");
     recipe.nodes.push_back(spec);
   }
   for (const Config& table : config_.tables("nodes")) {
-    NodeSpec spec{new_set(table), "node", {}, {}};
-    spec.selection = selection(table, "nodes " + spec.name);
+    NodeSpec spec{new_set(table), "node", {}, {}, {}};
+    spec.where = where(table, "nodes " + spec.name);
+    spec.terms = terms(table, "nodes " + spec.name, {});
     recipe.nodes.push_back(spec);
   }
 }
@@ -91,7 +92,7 @@ void RecipeReader::point_masses(Recipe& recipe) const {
     PointMassSpec spec;
     spec.on = known_set(table, "on");
     spec.where = where(table, "point_mass on " + spec.on);
-    spec.mass = table.number("mass", Range::positive());
+    spec.mass = table.number("mass", Range::not_negative());
     if (table.has("offset")) spec.offset = point(table, "offset");
     const std::vector<double> J = table.numbers_or("inertia", {0.0, 0.0, 0.0});
     if (J.size() != 3 && J.size() != 6)
@@ -104,6 +105,8 @@ void RecipeReader::point_masses(Recipe& recipe) const {
       spec.inertia(1, 2) = spec.inertia(2, 1) = J[4];
       spec.inertia(2, 0) = spec.inertia(0, 2) = J[5];
     }
+    if (spec.mass == 0.0 && spec.inertia.isZero(0.0))
+      table.fail("mass", "found 0 and no inertia, expected one of them above 0");
     // No body has negative second moments tr(J)/2 I - J.
     const Eigen::Vector3d moments =
         Eigen::Vector3d::Constant(0.5 * spec.inertia.trace()) - spec.inertia.diagonal();

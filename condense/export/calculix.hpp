@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/rom/reduced_model.hpp"
+#include "condense/export/exported_part.hpp"
 
 namespace clatter::condense {
 
@@ -25,10 +25,11 @@ std::vector<std::filesystem::path> calculix_files(const std::filesystem::path& p
 ///   part.K.txt, part.M.txt   lines "node,component,node,component,value", lower triangle, 17
 ///               digits: *MATRIX INPUT of Abaqus and *MATRIX ASSEMBLE of CalculiX after 2.20.
 ///
-/// Nodes and components are those of the DoF map with displacements only: rotations and modal
-/// coordinates are component 1 of a node of their own. The header of part.inp lists them.
-/// InputError when M_rr is not positive definite; FileError when a file cannot be written.
-std::vector<std::filesystem::path> export_calculix(const rom::ReducedModel& model,
-                                                   const std::filesystem::path& path);
+/// Displacements have the nodes and components of the DoF map. Rotations of a node about x, y, z
+/// are components 1 to 3 of another node, as those of a ROT NODE; a modal coordinate, or one along
+/// another direction, is component 1 of its own. The header of part.inp lists them. New nodes and
+/// elements of a part from a deck have numbers after those of the deck. InputError when M_rr is not
+/// positive definite; FileError when a file cannot be written.
+void export_calculix(const ExportedPart& part, const std::filesystem::path& path);
 
 }  // namespace clatter::condense

@@ -5,7 +5,6 @@
 
 #include "core/base/artefact.hpp"
 #include "core/base/matrix_text.hpp"
-#include "core/rom/dof_map.hpp"
 
 namespace clatter::condense {
 
@@ -16,8 +15,8 @@ std::vector<std::filesystem::path> matrix_market_files(const std::filesystem::pa
   return {beside(".K.mtx"), beside(".M.mtx"), beside(".dofs.tsv")};
 }
 
-std::vector<std::filesystem::path> export_matrix_market(const rom::ReducedModel& model,
-                                                        const std::filesystem::path& path) {
+void export_matrix_market(const ExportedPart& part, const std::filesystem::path& path) {
+  const rom::ReducedModel& model = part.model;
   const std::vector<std::filesystem::path> files = matrix_market_files(path);
   const auto &K = files[0], &M = files[1], &map = files[2];
   const std::string rows = fmt::format(
@@ -25,10 +24,10 @@ std::vector<std::filesystem::path> export_matrix_market(const rom::ReducedModel&
       "i of {}",
       model.n_boundary, model.size() - model.n_boundary, map.filename().string());
   const auto head = [&](const char* what) {
-    return fmt::format("clatter {}: {} of \"{}\" ({}), SI", version(), what, model.name,
-                       model.method);
+    return fmt::format("clatter {}: {} of \"{}\" ({}), {}", version(), what, model.name,
+                       model.method, text_of(part.units));
   };
-  rom::write_dof_map(map, rom::map_of(model));
+  rom::write_dof_map(map, part.map);
   write_matrix_market(M, model.M_rr, {head("mass"), rows});
   std::vector<std::string> lines{
       head("stiffness"), rows,
@@ -38,7 +37,6 @@ std::vector<std::filesystem::path> export_matrix_market(const rom::ReducedModel&
     lines.push_back(fmt::format("and of eigenmodes at {} Hz a ratio of {}, linear between",
                                 model.modal_damping.hz[k], model.modal_damping.ratio[k]));
   write_matrix_market(K, model.K_rr, lines);
-  return files;
 }
 
 }  // namespace clatter::condense

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/rom/reduced_model.hpp"
+#include "condense/export/exported_part.hpp"
 
 namespace clatter::condense {
 
@@ -13,8 +13,7 @@ std::vector<std::filesystem::path> matrix_market_files(const std::filesystem::pa
 
 /// For "part.mtx": part.K.mtx and part.M.mtx (coordinate real symmetric, 17 digits, so that values
 /// are read back exactly) and part.dofs.tsv, the DoF map (core/rom/dof_map.hpp). Damping is in the
-/// header of K. Returns the files; FileError when one cannot be written.
-std::vector<std::filesystem::path> export_matrix_market(const rom::ReducedModel& model,
-                                                        const std::filesystem::path& path);
+/// header of K. FileError when one cannot be written.
+void export_matrix_market(const ExportedPart& part, const std::filesystem::path& path);
 
 }  // namespace clatter::condense

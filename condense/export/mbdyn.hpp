@@ -2,9 +2,8 @@
 #pragma once
 // Reduced parts as input of MBDyn's modal joint.
 #include <filesystem>
-#include <vector>
 
-#include "core/rom/reduced_model.hpp"
+#include "condense/export/exported_part.hpp"
 
 namespace clatter::condense {
 
@@ -16,7 +15,6 @@ namespace clatter::condense {
 /// by d times its value; directions without a coordinate are zero. Comments in the header list row,
 /// node and direction of the coordinates. 17 digits. InputError when M_rr is not positive definite
 /// or no boundary coordinate has a position; FileError when the file cannot be written.
-std::vector<std::filesystem::path> export_mbdyn(const rom::ReducedModel& model,
-                                                const std::filesystem::path& path);
+void export_mbdyn(const ExportedPart& part, const std::filesystem::path& path);
 
 }  // namespace clatter::condense

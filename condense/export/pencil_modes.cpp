@@ -25,4 +25,24 @@ PencilModes modes_of(const rom::ReducedModel& model) {
   return modes;
 }
 
+PencilModes elastic_modes_of(const rom::ReducedModel& model) {
+  const PencilModes all = modes_of(model);
+  if (all.elastic() == 0)
+    throw InputError(fmt::format("{}: found no elastic mode, expected one or more", model.name));
+  return {all.Phi.rightCols(all.elastic()), all.Lambda.tail(all.elastic()), 0};
+}
+
+Eigen::VectorXd modal_rates(const rom::ReducedModel& model, const Eigen::VectorXd& Lambda) {
+  return Eigen::VectorXd(model.alpha * Lambda.array() + model.beta) +
+         model.modal_damping.rates(Lambda);
+}
+
+Eigen::MatrixXd damping_of(const rom::ReducedModel& model) {
+  Eigen::MatrixXd D = model.alpha * model.K_rr + model.beta * model.M_rr;
+  if (model.modal_damping.empty()) return D;
+  const PencilModes modes = modes_of(model);
+  const Eigen::MatrixXd M_Phi = model.M_rr * modes.Phi;
+  return D + M_Phi * model.modal_damping.rates(modes.Lambda).asDiagonal() * M_Phi.transpose();
+}
+
 }  // namespace clatter::condense

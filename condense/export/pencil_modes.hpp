@@ -12,9 +12,20 @@ struct PencilModes {
   Eigen::MatrixXd Phi;
   Eigen::VectorXd Lambda;  // [rad2/s2]
   int rigid = 0;           // number of leading ones that are zero to rounding
+
+  int elastic() const { return static_cast<int>(Lambda.size()) - rigid; }
 };
 
 /// All modes by a dense solution; InputError when M_rr is not positive definite.
 PencilModes modes_of(const rom::ReducedModel& model);
+
+/// The elastic ones alone, `rigid` 0: floating frames of reference make the rigid motions.
+PencilModes elastic_modes_of(const rom::ReducedModel& model);
+
+/// Diagonal of the damping matrix of modes with these omega^2: alpha omega^2 + beta, and the table.
+Eigen::VectorXd modal_rates(const rom::ReducedModel& model, const Eigen::VectorXd& Lambda);
+
+/// alpha K_rr + beta M_rr and the table's M_rr Phi diag(2 zeta omega) Phi^T M_rr.
+Eigen::MatrixXd damping_of(const rom::ReducedModel& model);
 
 }  // namespace clatter::condense

@@ -4,6 +4,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cstring>
+
 #include "core/base/h5_impl.hpp"
 
 namespace clatter {
@@ -192,6 +194,32 @@ std::vector<std::string> H5File::read_strings(std::string_view name) const {
   const auto count = static_cast<size_t>(shape[0]);
   return H5Tis_variable_str(stored) > 0 ? impl_->read_long_texts(name, set, count)
                                         : impl_->read_texts(name, set, stored, count);
+}
+
+std::vector<std::string> H5File::read_byte_texts(std::string_view name) const {
+  const Id set = impl_->open_dataset(name);
+  const Id stored(H5Dget_type(set), &H5Tclose);
+  const auto shape = Impl::extents(set);
+  const size_t length = H5Tget_size(stored);
+  constexpr size_t kLongest = 4096, kMost = size_t{1} << 26;  // bytes of one, of all
+  const bool bytes = H5Tget_class(stored) == H5T_ARRAY && H5Tget_array_ndims(stored) == 1 &&
+                     length <= kLongest && shape.size() == 1 &&
+                     static_cast<size_t>(shape[0]) * length <= kMost;
+  hsize_t extent = 0;
+  if (!bytes || H5Tget_array_dims2(stored, &extent) < 0 || extent != length) {
+    impl_->refuse(name, "found another type, expected a list of arrays of bytes");
+  }
+  std::string all(static_cast<size_t>(shape[0]) * length, '\0');
+  if (H5Dread(set, stored, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()) < 0) {
+    impl_->refuse(name, damage());
+  }
+  std::vector<std::string> texts;
+  for (size_t at = 0; at < all.size(); at += length) {
+    std::string text(all.data() + at, strnlen(all.data() + at, length));
+    text.erase(text.find_last_not_of(' ') + 1);
+    texts.push_back(std::move(text));
+  }
+  return texts;
 }
 
 Eigen::VectorXd H5File::read_vector(std::string_view name) const {

@@ -85,6 +85,9 @@ class H5File {
   std::vector<int32_t> read_ints(std::string_view name) const;
   std::vector<int64_t> read_longs(std::string_view name) const;
   std::vector<std::string> read_strings(std::string_view name) const;
+  /// A list of arrays of bytes, each a text that ends at its first zero, without blanks at its end
+  /// (names in files of MED).
+  std::vector<std::string> read_byte_texts(std::string_view name) const;
   Eigen::VectorXd read_vector(std::string_view name) const;
   Eigen::MatrixXd read_matrix(std::string_view name) const;
   RowMatrix read_rows(std::string_view name) const;

@@ -56,6 +56,18 @@ const CellRule& reduced_rule(CellType type) {
   }
 }
 
+/// One order more than the full rule of the cells of corners alone.
+const CellRule& fine_stiffness_rule(CellType type) {
+  switch (type) {
+    case CellType::kHex8:
+      return mesh::hex_rule(3);
+    case CellType::kWedge6:
+      return mesh::wedge_rule(6, 3);
+    default:
+      return full_rule(type, false);
+  }
+}
+
 const CellRule& mass_rule(CellType type, bool straight) {
   switch (type) {
     case CellType::kTet4:
@@ -150,7 +162,9 @@ const CellPoints& stiffness_points(CellType type, Integration integration, bool 
   static const Tables simple([](CellType t) -> const CellRule& { return full_rule(t, true); });
   static const Tables curved([](CellType t) -> const CellRule& { return full_rule(t, false); });
   static const Tables reduced(reduced_rule);
+  static const Tables fine(fine_stiffness_rule);
   if (integration == Integration::kReduced) return reduced.of(type);
+  if (integration == Integration::kFine) return fine.of(type);
   return straight ? simple.of(type) : curved.of(type);
 }
 

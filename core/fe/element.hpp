@@ -16,6 +16,8 @@
 //   pyramid5   2 x 2 x 2                         3 x 3 x 3    parallelogram bases
 //   pyramid13  3, curved 4 cubed                 5 x 5 x 5    parallelogram bases
 //
+// "fine" is 3 x 3 x 3 points for hex8 and 6 x 3 for wedge6: Nastran's IN = THREE with ISOP = FULL.
+//
 // M is exact for any cell. Every full rule integrates dN/dx det J exactly, so that the linear patch
 // test also passes on distorted and curved cells; this needs 14 points on a curved tet10, where 4
 // are common. Reduced wedges and hexahedra are C3D6, C3D15 and C3D20R of Abaqus and CalculiX.

@@ -13,15 +13,16 @@
 namespace clatter::fe {
 namespace {
 
-template <typename Value>
-using Names = std::array<std::pair<std::string_view, Value>, 3>;
+template <typename Value, size_t N>
+using Names = std::array<std::pair<std::string_view, Value>, N>;
 
-constexpr Names<Integration> kIntegrations = {{{"full", Integration::kFull},
-                                               {"reduced", Integration::kReduced},
-                                               {"incompatible", Integration::kIncompatible}}};
-constexpr Names<Axes::Kind> kAxes = {{{"rectangular", Axes::Kind::kRectangular},
-                                      {"cylindrical", Axes::Kind::kCylindrical},
-                                      {"spherical", Axes::Kind::kSpherical}}};
+constexpr Names<Integration, 4> kIntegrations = {{{"full", Integration::kFull},
+                                                  {"reduced", Integration::kReduced},
+                                                  {"incompatible", Integration::kIncompatible},
+                                                  {"fine", Integration::kFine}}};
+constexpr Names<Axes::Kind, 3> kAxes = {{{"rectangular", Axes::Kind::kRectangular},
+                                         {"cylindrical", Axes::Kind::kCylindrical},
+                                         {"spherical", Axes::Kind::kSpherical}}};
 
 using Choice = Integration IntegrationChoice::*;
 constexpr std::array<std::pair<const char*, Choice>, 4> kChoices = {
@@ -30,16 +31,16 @@ constexpr std::array<std::pair<const char*, Choice>, 4> kChoices = {
      {"wedge6", &IntegrationChoice::wedge6},
      {"wedge15", &IntegrationChoice::wedge15}}};
 
-template <typename Value>
-std::string name_of(const Names<Value>& names, Value value) {
+template <typename Value, size_t N>
+std::string name_of(const Names<Value, N>& names, Value value) {
   for (const auto& [name, known] : names)
     if (known == value) return std::string(name);
   return {};
 }
 
-template <typename Value>
+template <typename Value, size_t N>
 Value value_of(const H5File& file, const std::string& group, const std::string& key,
-               const Names<Value>& names) {
+               const Names<Value, N>& names) {
   const std::string found = file.get_string(group, key);
   for (const auto& [name, value] : names)
     if (name == found) return value;

@@ -104,6 +104,7 @@ void write_fe_model(H5File& file, const FeModel& model) {
   rom::write_mass_properties(file, model.mass);
   write_statics(file, model);
   write_cells(file, model.cells);
+  write_deck_origin(file, model.deck);
 }
 
 FeModel read_fe_model(const std::filesystem::path& path, FeMatrices matrices) {
@@ -130,6 +131,7 @@ FeModel read_fe_model(const std::filesystem::path& path, FeMatrices matrices) {
   read_statics(file, model);
   if (model.size() == 0 && model.supports.size() == 0) refuse(file, "K", "no DoF", "at least one");
   model.cells = read_cells(file, model.nodes);
+  model.deck = read_deck_origin(file);
   return model;
 }
 

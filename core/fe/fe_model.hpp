@@ -79,6 +79,7 @@ struct FeModel {
   std::map<std::string, mesh::Surface> surfaces;               // outward
   FeCells cells;                                               // for stresses
   rom::MassProperties mass;                                    // of elements and point masses
+  DeckOrigin deck{};                                           // the deck of the mesh
   std::map<std::string, std::string> load_units;               // "gas" -> "Pa": unit of the load
 
   int size() const { return static_cast<int>(K.rows()); }

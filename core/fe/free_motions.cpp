@@ -168,6 +168,7 @@ FreeMotions free_motions(const fe::FeModel& model) {
 }
 
 double characteristic_length(const fe::FeModel& model) {
+  if (model.nodes.rows() == 0) return 1.0;
   const Eigen::RowVector3d span =
       model.nodes.colwise().maxCoeff() - model.nodes.colwise().minCoeff();
   return std::max(0.5 * span.norm(), 1e-12);

@@ -129,6 +129,7 @@ Integration choose(const Config& table, std::string_view key,
   const std::string name = table.choice(key, known);
   return name == "full"      ? Integration::kFull
          : name == "reduced" ? Integration::kReduced
+         : name == "fine"    ? Integration::kFine
                              : Integration::kIncompatible;
 }
 
@@ -180,9 +181,10 @@ Material read_material(const Config& table, const std::map<std::string, Axes>& s
     }
     material.axes = found->second;
   }
-  material.integration = {
-      choose(table, "hex8", {"incompatible", "full"}), choose(table, "hex20", {"full", "reduced"}),
-      choose(table, "wedge6", {"full", "reduced"}), choose(table, "wedge15", {"full", "reduced"})};
+  material.integration = {choose(table, "hex8", {"incompatible", "full", "fine"}),
+                          choose(table, "hex20", {"full", "reduced"}),
+                          choose(table, "wedge6", {"full", "reduced", "fine"}),
+                          choose(table, "wedge15", {"full", "reduced"})};
   return material;
 }
 

@@ -17,7 +17,7 @@ using Elasticity = Eigen::Matrix<double, 6, 6>;
 using Voigt = Eigen::Matrix<double, 6, 1>;
 
 /// Integration of the stiffness (element.hpp lists the points).
-enum class Integration { kFull, kReduced, kIncompatible };
+enum class Integration { kFull, kReduced, kIncompatible, kFine };
 
 /// The choice for each cell type with alternatives.
 struct IntegrationChoice {

@@ -147,9 +147,11 @@ std::vector<int32_t> nodes_of(const Surface& surface) {
 }
 
 void check_structure(const Mesh& mesh, const std::string& where) {
-  if (mesh.nodes.rows() == 0 || mesh.cell_count() == 0) {
-    throw InputError(fmt::format("{}: found {} nodes and {} cells, expected at least one of each",
-                                 where, mesh.nodes.rows(), mesh.cell_count()));
+  if ((mesh.nodes.rows() == 0) != (mesh.cell_count() == 0)) {
+    throw InputError(
+        fmt::format("{}: found {} nodes and {} cells, expected at least one of each, or "
+                    "neither (points and springs alone)",
+                    where, mesh.nodes.rows(), mesh.cell_count()));
   }
   if (mesh.nodes.cols() != 3) {
     throw InputError(
@@ -169,7 +171,7 @@ void check_structure(const Mesh& mesh, const std::string& where) {
   }
   check_ids(mesh, where);
   check_sets(mesh, where);
-  mesh.surface("skin");
+  if (mesh.cell_count() > 0) mesh.surface("skin");
 }
 
 }  // namespace clatter::mesh

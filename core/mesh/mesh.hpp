@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/deck_origin.hpp"
 #include "core/base/matrix.hpp"
 #include "core/mesh/cell.hpp"
 
@@ -59,6 +60,7 @@ struct Mesh {
   std::map<std::string, Surface> surfaces;
   std::map<std::string, std::vector<int32_t>> node_sets;  // ascending
   std::map<std::string, RowMatrix> fields;  // n x k values at the nodes, k = 1 or 3 (SI)
+  DeckOrigin deck;                          // the deck that it was read from
 
   int64_t cell_count() const;
   /// InputError listing the existing names when there is none of that name.

@@ -47,6 +47,7 @@ void write_mesh(H5File& file, const Mesh& mesh) {
   for (const auto& [name, ids] : mesh.node_sets) file.write("node_sets/" + name, ids);
   for (const auto& [name, values] : mesh.fields) file.write("fields/" + name, values);
   if (!mesh.node_ids.empty()) file.write("node_ids", mesh.node_ids);
+  write_deck_origin(file, mesh.deck);
 }
 
 void write_cells(H5File& file, const std::vector<CellBlock>& cells) {
@@ -98,6 +99,7 @@ Mesh read_mesh(const std::filesystem::path& path) {
   for (const std::string& name : file.list("fields"))
     mesh.fields[name] = file.read_rows("fields/" + name);
   if (file.has("node_ids")) mesh.node_ids = file.read_ints("node_ids");
+  mesh.deck = read_deck_origin(file);
   check_structure(mesh, where);
   refuse_invalid_cells(mesh, where);
   return mesh;

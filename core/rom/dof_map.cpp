@@ -28,22 +28,40 @@ int component_of(const Eigen::Vector3d& direction, bool rotation) {
 /// Assigns node numbers.
 class NodeNumbers {
  public:
-  int own() { return ++count_; }
+  NodeNumbers(const NodeNumbering& numbering, const DeckOrigin& deck)
+      : of_deck_(deck.known()), one_count_(numbering.first_scalar == 0) {
+    const int32_t first = of_deck_ ? round_number_after(deck.largest_node) : 1;
+    node_ = (numbering.first_node != 0 ? numbering.first_node : first) - 1;
+    scalar_ = numbering.first_scalar - 1;
+  }
+
+  /// @param deck_number of the DoF's node; 0: none.
+  void assign(MappedDof& dof, int32_t deck_number) {
+    if (dof.component == 0) {
+      dof.node = one_count_ ? ++node_ : ++scalar_;
+      return;
+    }
+    dof.of_deck = of_deck_ && deck_number > 0 && deck_[deck_number].insert(dof.component).second;
+    dof.node = dof.of_deck ? deck_number : shared(dof);
+  }
+
+ private:
   int shared(const MappedDof& dof) {
     const Eigen::Vector3d& p = dof.position;
     auto& node = nodes_[{dof.set, {p[0], p[1], p[2]}}];
     if (node.number == 0 || !node.components.insert(dof.component).second)
-      node = {own(), {dof.component}};
+      node = {++node_, {dof.component}};
     return node.number;
   }
 
- private:
   struct Node {
     int number = 0;
     std::set<int> components;
   };
+  bool of_deck_ = false, one_count_ = true;
   std::map<std::pair<std::string, std::array<double, 3>>, Node> nodes_;
-  int count_ = 0;
+  std::map<int32_t, std::set<int>> deck_;  // components of nodes of the deck
+  int32_t node_ = 0, scalar_ = 0;          // the last ones
 };
 
 MappedDof place_of(const DofSet& set, const std::string& name, size_t k) {
@@ -109,18 +127,27 @@ MappedDof read_line(const TextLines& lines, const std::vector<std::string_view>&
 
 }  // namespace
 
-std::vector<MappedDof> map_of(const ReducedModel& model) {
+int32_t round_number_after(int32_t number) {
+  int32_t power = 1;
+  while (power <= number && power < 100'000'000) power *= 10;
+  return power > number && power < 100'000'000 ? power + 1 : number + 1;
+}
+
+std::vector<MappedDof> map_of(const ReducedModel& model, const NodeNumbering& numbering) {
   std::vector<MappedDof> map(static_cast<size_t>(model.size()));
+  std::vector<int32_t> deck_number(map.size(), 0);
   for (const auto& [name, set] : model.sets) {
     for (size_t k = 0; k < set.dofs.size(); ++k) {
       if (set.dofs[k] >= model.size()) continue;  // a combination of coordinates
       MappedDof& dof = map[static_cast<size_t>(set.dofs[k])];
       if (dof.kind == MappedDof::Kind::kModal) dof = place_of(set, name, k);
+      int32_t& number = deck_number[static_cast<size_t>(set.dofs[k])];
+      if (number == 0 && k < set.node_ids.size()) number = set.node_ids[k];
     }
   }
-  NodeNumbers numbers;
+  NodeNumbers numbers(numbering, model.deck);
   for (size_t j = 0; j < map.size(); ++j) {
-    map[j].node = map[j].component == 0 ? numbers.own() : numbers.shared(map[j]);
+    numbers.assign(map[j], deck_number[j]);
     if (map[j].kind == MappedDof::Kind::kModal)
       map[j].label = fmt::format("mode_{}", static_cast<int>(j) - model.n_boundary + 1);
   }

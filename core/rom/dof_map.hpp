@@ -21,12 +21,23 @@ struct MappedDof {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit vector; zero for a modal DoF
   std::string set;                                      // empty for a modal DoF
   std::string label;
+  bool of_deck = false;  // `node` is its number in the deck of the mesh
+};
+
+/// Numbers of nodes that the deck does not have.
+struct NodeNumbering {
+  int32_t first_node = 0;    // 0: 1; of a part from a deck a round number after those of the deck
+  int32_t first_scalar = 0;  // of DoFs of component 0; 0: one count together with the nodes
 };
 
 /// Entry j is coordinate j. A DoF in two sets gets the position of the first by name. Boundary DoFs
 /// of one set at one position share a node when their components differ; every DoF of component 0,
-/// and every modal one, has its own node.
-std::vector<MappedDof> map_of(const ReducedModel& model);
+/// and every modal one, has its own node. DoFs along or about x, y, z of nodes of the deck that the
+/// part came from have the deck's numbers.
+std::vector<MappedDof> map_of(const ReducedModel& model, const NodeNumbering& numbering = {});
+
+/// The smallest power of ten above `number`, plus one; above 10^7 the next number.
+int32_t round_number_after(int32_t number);
 
 /// Text, one DoF per line, tab-separated, SI, numbers exact on reading:
 ///   i  node  component  kind  x  y  z  dx  dy  dz  set  label

@@ -82,6 +82,10 @@ DofSet read_dof_set(const H5File& file, const std::string& at, int n_dofs) {
   set.position = read_checked(file, at + "/position", count, 3);
   set.direction = read_checked(file, at + "/direction", count, 3);
   set.is_rotation = file.read_ints(at + "/is_rotation");
+  if (file.has(at + "/node_ids")) set.node_ids = file.read_ints(at + "/node_ids");
+  if (!set.node_ids.empty() && set.node_ids.size() != set.dofs.size())
+    throw InputError(fmt::format("{}: {}/node_ids: found {} for {} degrees of freedom",
+                                 file.path().string(), at, set.node_ids.size(), set.dofs.size()));
   if (set.labels.size() != set.dofs.size() || set.is_rotation.size() != set.dofs.size()) {
     throw InputError(fmt::format("{}: {}: found {} labels for {} degrees of freedom",
                                  file.path().string(), at, set.labels.size(), set.dofs.size()));
@@ -175,6 +179,7 @@ void write_dof_sets(H5File& file, const std::map<std::string, DofSet>& sets,
     file.write(at + "/direction", set.direction);
     file.write(at + "/is_rotation", set.is_rotation);
     file.set(at, "kind", set.kind);
+    if (!set.node_ids.empty()) file.write(at + "/node_ids", set.node_ids);
   }
   for (const auto& [name, grid] : grids) write_grid(file, "grids/" + name, grid);
 }
@@ -233,6 +238,7 @@ void write_reduced_model(H5File& file, const ReducedModel& model) {
   write_elimination_order(file, model.elimination);
   if (model.skin.nodes.rows() > 0) write_skin(file, model.skin);
   write_certificate(file, model.certificate);
+  write_deck_origin(file, model.deck);
 }
 
 ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_skin) {
@@ -263,6 +269,7 @@ ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_ski
   model.mass = read_mass_properties(file);
   if (with_skin && file.has("skin")) model.skin = read_skin(file, size);
   model.certificate = read_certificate<ReducedCertificate>(file);
+  model.deck = read_deck_origin(file);
   if (model.n_boundary < 0 || model.n_boundary > size) {
     throw InputError(fmt::format("{}: n_boundary: found {}, expected 0 to {}", path.string(),
                                  model.n_boundary, size));

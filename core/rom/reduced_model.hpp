@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/base/artefact.hpp"
+#include "core/base/deck_origin.hpp"
 #include "core/base/h5_file.hpp"
 #include "core/rom/damping_table.hpp"
 #include "core/rom/elimination_order.hpp"
@@ -34,6 +35,7 @@ struct DofSet {
   Eigen::MatrixXd position;          // dofs x 3 [m]
   Eigen::MatrixXd direction;         // dofs x 3, unit vectors
   std::vector<int32_t> is_rotation;  // 1: rotation about `direction`, 0: displacement along it
+  std::vector<int32_t> node_ids{};   // node numbers in the deck of the mesh, 0: none; or empty
 };
 
 /// A grid of patches on a cylinder surface (liner bore or piston skirt). Patch (i, j) is DoF
@@ -99,6 +101,7 @@ struct ReducedModel {
   std::vector<std::string> recovered_sets;  // sets that were never coordinates
   EliminationOrder elimination;             // of K_ii; read_reduced_model leaves it empty
   ReducedCertificate certificate;
+  DeckOrigin deck{};  // the deck of the mesh
 
   int size() const { return static_cast<int>(M_rr.rows()); }
   /// Number of coordinates plus rows of `combined`: the range of DofSet::dofs.

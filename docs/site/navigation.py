@@ -16,6 +16,7 @@ NAVIGATION = {
     "Samples": [("samples/beam/README.md", "beam"), ("samples/cpp/README.md", "cpp"),
                 ("samples/timing_drive/README.md", "timing_drive"), ("samples/truck_diesel/README.md", "truck_diesel")],
     "Documents": [("docs/design.md", "Design"), ("docs/effects.md", "Effects"), ("docs/formats.md", "File formats"),
+                  ("docs/cards.md", "Cards and keywords"),
                   ("docs/accuracy.md", "Accuracy"), ("docs/validation.md", "Validation"), ("docs/hard-cases.md", "Hard cases"),
                   ("docs/hard-results.md", "Hard cases: results"),
                   ("docs/cluster.md", "Batch systems")],

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,10 @@ namespace clatter::mesh::deck {
 
 /// A node that belongs to no cell: reference node of couplings and masses, six DoFs.
 struct Point {
-  int32_t id = 0;        // number in the deck
-  Eigen::Vector3d at;    // basic frame
-  bool of_bolt = false;  // the reference of a Bolt: its only motion is along the bolt
+  int32_t id = 0;         // number in the deck
+  Eigen::Vector3d at;     // basic frame
+  bool of_bolt = false;   // the reference of a Bolt: its only motion is along the bolt
+  bool left_out = false;  // nothing that remains refers to it
 };
 
 /// Mesh nodes and points in one numbering: 0 ... n_nodes - 1 are mesh nodes, n_nodes + p is
@@ -54,10 +56,12 @@ struct Material {
   double density = 0.0;           // 0: the deck has none
   std::vector<double> expansion;  // 1 (isotropic), 3 (along the axes) or none [1/K]
   double reference_temperature = 0.0;
+  double mass_damping = 0.0;       // the deck's damping: this times M [1/time]
+  double stiffness_damping = 0.0;  // plus this times K [time]
 };
 
 /// Integration of each cell type of a region, if the deck specifies it.
-enum class Formulation { kDefault, kFull, kReduced, kIncompatible };
+enum class Formulation { kDefault, kFull, kReduced, kIncompatible, kFine };
 
 /// Properties of each of Mesh::regions.
 struct Region {
@@ -129,6 +133,14 @@ struct Mass {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();   // centre of mass minus node, basic axes
 };
 
+/// Stiffness or mass between DoFs, beside the cells (DMIG, CONM1, CMASS).
+struct NodalMatrix {
+  std::string name, where;
+  bool is_mass = false;
+  std::vector<Equation::Term> terms;  // one per row; coefficients are unused
+  Eigen::MatrixXd values;             // symmetric
+};
+
 /// Displacements fixed at zero, or in a step at a value.
 struct Support {
   std::string name, where;
@@ -168,6 +180,9 @@ struct Step {
   std::string temperature;  // field of the mesh, n x 1, temperature; empty: no thermal load
 };
 
+/// Mass matrix of the cells.
+enum class MassForm { kConsistent, kLumped };
+
 /// The entire deck. `regions` is parallel to Mesh::regions; nodes without cells are only in
 /// `points`.
 struct Deck {
@@ -185,17 +200,25 @@ struct Deck {
   std::vector<Equation> equations;
   std::vector<Spring> springs;
   std::vector<Mass> masses;
+  std::vector<NodalMatrix> matrices;
   std::vector<Support> supports;  // of the entire model
   std::vector<Support> retained;  // ASET, BSET: boundary DoFs of a condensation (value unused)
   std::vector<Step> steps;
+  MassForm mass = MassForm::kConsistent;   // of the cells, as the deck's program makes it
   std::map<std::string, int64_t> ignored;  // ignored input, with counts
+  std::string passed;                      // Contents::passed_line()
+  std::vector<std::string> renumbered;     // cells: what repair_cells() did
   std::vector<std::string> notes;          // "file:line: ...": remarks for the user
 };
+
+class Contents;
 
 /// How to read a deck.
 struct ReadOptions {
   std::vector<std::string>
       ignore;  // cards or keywords to skip, any case: "CQUAD4", "*SHELL SECTION"
+  std::optional<MassForm> mass = std::nullopt;  // absent: as in the deck
+  Contents* contents = nullptr;  // to record what the deck holds, also when it is refused
 };
 
 }  // namespace clatter::mesh::deck

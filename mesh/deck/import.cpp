@@ -10,6 +10,7 @@
 #include "core/base/log.hpp"
 #include "core/mesh/boundary.hpp"
 #include "mesh/deck/abaqus/reader.hpp"
+#include "mesh/deck/cell_repair.hpp"
 #include "mesh/deck/nastran/reader.hpp"
 
 namespace clatter::mesh::deck {
@@ -23,7 +24,21 @@ std::string extension_of(const std::filesystem::path& path) {
 }
 
 bool is_nastran(const std::string& extension) {
-  return extension == ".bdf" || extension == ".nas" || extension == ".dat";
+  return extension == ".bdf" || extension == ".nas" || extension == ".dat" || extension == ".fem";
+}
+
+/// The units and highest numbers of the deck; readers may have noted higher numbers of what they
+/// do not keep.
+void note_origin(Deck& deck, const UnitSystem& units) {
+  DeckOrigin& origin = deck.mesh.deck;
+  origin.units = units.name;
+  for (const int32_t id : deck.mesh.node_ids)
+    origin.largest_node = std::max(origin.largest_node, id);
+  for (const Point& point : deck.points)
+    origin.largest_node = std::max(origin.largest_node, point.id);
+  for (const CellBlock& block : deck.mesh.cells)
+    for (const int32_t id : block.ids)
+      origin.largest_element = std::max(origin.largest_element, id);
 }
 
 }  // namespace
@@ -37,18 +52,39 @@ Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
                const ReadOptions& options) {
   const std::string extension = extension_of(path);
   if (!is_deck(path))
-    throw InputError(fmt::format("{}: found extension '{}', expected .inp, .bdf, .nas or .dat",
-                                 path.string(), extension));
+    throw InputError(
+        fmt::format("{}: found extension '{}', expected .inp, .bdf, .nas, .dat or .fem",
+                    path.string(), extension));
   Deck deck = is_nastran(extension) ? read_nastran(path, options) : read_abaqus(path, options);
-  finish_deck(deck, units, path.string());
+  if (options.mass) {
+    deck.mass = *options.mass;
+  } else if (deck.mass == MassForm::kLumped) {
+    deck.notes.push_back(
+        fmt::format("{}: lumped mass of the cells, as the deck's program makes it; --mass "
+                    "consistent changes it",
+                    path.string()));
+  }
+  const bool say_notes = options.contents == nullptr;  // else they are rows of the table
+  finish_deck(deck, units, path.string(), say_notes);
   return deck;
 }
 
-void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where) {
-  if (deck.mesh.cell_count() == 0)
-    throw InputError(fmt::format("{}: found no solid cells, expected some", where));
-  for (const std::string& note : deck.notes) warn(note);
+void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where, bool say_notes) {
+  if (deck.mesh.cell_count() == 0 && deck.springs.empty() && deck.matrices.empty())
+    throw InputError(fmt::format("{}: found no solid cells and no springs, expected some", where));
+  for (const std::string& done : repair_cells(deck.mesh, where))
+    deck.renumbered.push_back(fmt::format("{}: {}", where, done));
+  for (const Support& retained : deck.retained)
+    if (!retained.system.empty())
+      deck.notes.push_back(
+          fmt::format("{}: retained in system {}: coordinates are along the basic axes, and so are "
+                      "those of exports (CD 0)",
+                      retained.where, retained.system));
+  if (say_notes)
+    for (const auto* said : {&deck.renumbered, &deck.notes})
+      for (const std::string& one : *said) warn(one);
   convert_units(deck, units);
+  note_origin(deck, units);
   deck.mesh.surfaces["skin"] = skin_of(boundary_faces(deck.mesh));
   check_structure(deck.mesh, where);
   const ValidityReport validity = check_validity(deck.mesh);

@@ -10,7 +10,7 @@
 namespace clatter::mesh::deck {
 
 /// True for the extensions that read_deck() supports: .inp (Abaqus, CalculiX), .bdf, .nas, .dat
-/// (Nastran); any case.
+/// (Nastran), .fem (OptiStruct); any case.
 bool is_deck(const std::filesystem::path& path);
 
 /// Reads the deck in the given units, converts it, makes the surface "skin" and proves that every
@@ -20,7 +20,8 @@ Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
                const ReadOptions& options);
 
 /// Finishes the deck of any reader as read_deck() does: SI, surface "skin", proof. Messages begin
-/// with `where`.
-void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where);
+/// with `where`; the notes of the deck are warnings unless the caller says them.
+void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where,
+                 bool say_notes = true);
 
 }  // namespace clatter::mesh::deck

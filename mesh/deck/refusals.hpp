@@ -1,18 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Collects up to ten refusals of a deck.
+// Collects the refusals of a deck, and what it holds.
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "mesh/deck/contents.hpp"
 
 namespace clatter::mesh::deck {
 
+/// A message and the positions ("deck.inp:12") at which it applies.
+struct Refusal {
+  std::string position, message;
+  std::vector<std::string> again;  // other positions
+};
+
 /// All refusals of a deck in one message; ends the reading.
 struct DeckRefused : InputError {
-  using InputError::InputError;
+  DeckRefused(const std::string& text, std::vector<Refusal> all)
+      : InputError(text), refusals(std::move(all)) {}
+  std::vector<Refusal> refusals;
 };
 
 /// The deck cannot be read beyond this line (a line without end).
@@ -29,10 +38,20 @@ struct FollowUp : InputError {
 /// other lines is counted, not repeated.
 class Refusals {
  public:
-  static constexpr size_t kMost = 10;
+  /// How many end the reading: of a run, and where the user wants to see all of them.
+  static constexpr size_t kMost = 10, kMostOfAll = 1000;
+
+  /// `contents`: where to record what the deck holds, and all refusals then; null: nowhere.
+  explicit Refusals(Contents* contents = nullptr)
+      : contents_(contents == nullptr ? own_ : *contents),
+        most_(contents == nullptr ? kMost : kMostOfAll) {}
+  Refusals(const Refusals&) = delete;
+  Refusals& operator=(const Refusals&) = delete;
+
+  Contents& contents() { return contents_; }
 
   /// Runs `body`; false when it threw an InputError, which is kept. Throws DeckRefused once there
-  /// are kMost.
+  /// are too many.
   template <class Body>
   bool attempt(const Body& body) {
     try {
@@ -68,11 +87,10 @@ class Refusals {
   bool has_lost(const std::string& name) const { return lost_.contains(name); }
 
  private:
-  struct Found {
-    std::string position, message;
-    std::vector<std::string> again;  // other positions of the same message
-  };
-  std::vector<Found> found_;
+  Contents own_;
+  Contents& contents_;
+  size_t most_;
+  std::vector<Refusal> found_;
   std::set<std::string> lost_;
 };
 

@@ -7,6 +7,8 @@ namespace {
 void convert_materials(Deck& deck, const UnitSystem& units) {
   for (auto& [name, material] : deck.materials) {
     material.density *= units.mass / (units.length * units.length * units.length);
+    material.mass_damping /= units.time;
+    material.stiffness_damping *= units.time;
     for (size_t i = 0; i < material.constants.size(); ++i) {
       const bool ratio = (material.kind == Material::Kind::kIsotropic && i == 1) ||
                          (material.kind == Material::Kind::kOrthotropic && i >= 3 && i <= 5);
@@ -20,6 +22,20 @@ void convert_equations(Deck& deck, const UnitSystem& units) {
   for (Equation& equation : deck.equations)
     for (Equation::Term& term : equation.terms)
       if (term.direction >= 3) term.coefficient *= units.length;
+}
+
+/// Rows and columns of rotations have one more length; a mass has no other, a stiffness force over
+/// length.
+void convert_matrices(Deck& deck, const UnitSystem& units) {
+  for (NodalMatrix& matrix : deck.matrices) {
+    const double unit = matrix.is_mass ? units.mass : units.force() / units.length;
+    for (size_t i = 0; i < matrix.terms.size(); ++i) {
+      const double factor = matrix.terms[i].direction >= 3 ? units.length : 1.0;
+      const auto row = static_cast<Eigen::Index>(i);
+      matrix.values.row(row) *= factor * unit;
+      matrix.values.col(row) *= factor;
+    }
+  }
 }
 
 bool is_rotation(const Support& support) { return (support.dofs & kTranslations) == 0; }
@@ -51,14 +67,18 @@ void convert_units(Deck& deck, const UnitSystem& units) {
   convert_equations(deck, units);
   for (Tie& tie : deck.ties)
     if (tie.distance > 0.0) tie.distance *= units.length;
-  for (Spring& spring : deck.springs)
-    spring.stiffness *=
-        units.force() * (spring.terms.front().direction >= 3 ? units.length : 1.0 / units.length);
+  for (Spring& spring : deck.springs) {
+    const bool turns = spring.terms.front().direction >= 3;
+    spring.stiffness *= units.force() * (turns ? units.length : 1.0 / units.length);
+    for (Equation::Term& term : spring.terms)  // lever arms
+      if (!turns && term.direction >= 3) term.coefficient *= units.length;
+  }
   for (Mass& mass : deck.masses) {
     mass.mass *= units.mass;
     mass.inertia *= units.mass * units.length * units.length;
     mass.offset *= units.length;
   }
+  convert_matrices(deck, units);
   convert_supports(deck.supports, units);
   for (Step& step : deck.steps) convert_step(step, units);
 }

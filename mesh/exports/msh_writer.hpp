@@ -9,7 +9,7 @@ namespace clatter::mesh {
 
 /// MSH 2.2 text, lengths in metres. Physical groups: regions are solids, surfaces are faces, node
 /// sets are points; a face or node in two groups is written as two elements. Nodes and
-/// cells keep their numbers; faces and points are numbered after the cells. read_msh()
+/// cells keep their numbers; faces and points are numbered after the cells. read_mesh_file()
 /// (deck/msh/reader.hpp) reads the same mesh back, except the fields. InputError for a name with
 /// '"'.
 std::string msh_text(const Mesh& mesh);

@@ -4,65 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <span>
 
 #include "core/base/error.hpp"
+#include "mesh/deck/unv_kinds.hpp"
 #include "mesh/exports/export_groups.hpp"
 
 namespace clatter::mesh {
 namespace {
 
 constexpr int kElement = 8, kNode = 7;  // entities of groups
-
-struct UnvKind {
-  int descriptor;              // 0: the format has no such element
-  std::span<const int> nodes;  // p with a_unv[i] = a_ours[p[i]]
-};
-
-UnvKind kind_of(CellType type) {
-  static constexpr std::array<int, 8> kCorners = {0, 1, 2, 3, 4, 5, 6, 7};
-  static constexpr std::array<int, 10> kTet10 = {0, 4, 1, 5, 2, 6, 7, 9, 8, 3};
-  static constexpr std::array<int, 20> kHex20 = {0,  8,  1, 11, 2, 13, 3, 9,  10, 12,
-                                                 14, 15, 4, 16, 5, 18, 6, 19, 7,  17};
-  static constexpr std::array<int, 15> kWedge15 = {0,  6, 1,  9, 2,  7, 8, 10,
-                                                   11, 3, 12, 4, 14, 5, 13};
-  const std::span<const int> corners(kCorners);
-  switch (type) {
-    case CellType::kTet4:
-      return {111, corners.first(4)};
-    case CellType::kTet10:
-      return {118, kTet10};
-    case CellType::kWedge6:
-      return {112, corners.first(6)};
-    case CellType::kWedge15:
-      return {113, kWedge15};
-    case CellType::kHex8:
-      return {115, corners.first(8)};
-    case CellType::kHex20:
-      return {116, kHex20};
-    default:
-      return {0, {}};
-  }
-}
-
-UnvKind kind_of(FaceType type) {
-  static constexpr std::array<int, 6> kTri6 = {0, 3, 1, 4, 2, 5};
-  static constexpr std::array<int, 8> kQuad8 = {0, 4, 1, 5, 2, 6, 3, 7};
-  static constexpr std::array<int, 4> kCorners = {0, 1, 2, 3};
-  const std::span<const int> corners(kCorners);
-  switch (type) {
-    case FaceType::kTri3:
-      return {91, corners.first(3)};
-    case FaceType::kTri6:
-      return {92, kTri6};
-    case FaceType::kQuad4:
-      return {94, corners};
-    default:
-      return {95, kQuad8};
-  }
-}
 
 // Fortran's D instead of e.
 std::string real(double value) {
@@ -94,7 +46,8 @@ class UnvWriter {
     for (size_t b = 0; b < mesh_.cells.size(); ++b) cells(b);
     for (const ExportFace& face : faces_) {
       face_numbers_.push_back(++last_);
-      element(last_, kind_of(face.type), static_cast<int>(mesh_.regions.size()) + 1, face.nodes);
+      element(last_, deck::unv_kind(face.type), static_cast<int>(mesh_.regions.size()) + 1,
+              face.nodes);
     }
     end();
     begin(2467);
@@ -111,7 +64,8 @@ class UnvWriter {
   void begin(int dataset) { put("    -1\n{:>6}\n", dataset); }
   void end() { put("    -1\n"); }
 
-  void element(int32_t number, const UnvKind& kind, int property, std::span<const int32_t> nodes) {
+  void element(int32_t number, const deck::UnvKind& kind, int property,
+               std::span<const int32_t> nodes) {
     put("{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", number, kind.descriptor, property, property, 7,
         kind.nodes.size());
     for (size_t i = 0; i < kind.nodes.size(); ++i) {
@@ -123,7 +77,7 @@ class UnvWriter {
 
   void cells(size_t b) {
     const CellBlock& block = mesh_.cells[b];
-    const UnvKind kind = kind_of(block.type);
+    const deck::UnvKind kind = deck::unv_kind(block.type);
     if (kind.descriptor == 0)
       throw InputError(fmt::format("mesh '{}': universal files have no element for {}", mesh_.name,
                                    traits(block.type).name));

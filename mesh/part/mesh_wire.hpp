@@ -6,6 +6,16 @@
 #include "mesh/cad/gmsh_session.hpp"
 #include "mesh/part/mesher.hpp"
 
+namespace clatter {
+
+template <class Archive, SelfOf<DeckOrigin> Self>
+void wire(Archive& archive, Self& s) {
+  auto& [units, largest_node, largest_element] = s;
+  archive(units, largest_node, largest_element);
+}
+
+}  // namespace clatter
+
 namespace clatter::mesh {
 
 template <class Archive, SelfOf<CellBlock> Self>
@@ -28,8 +38,8 @@ void wire(Archive& archive, Self& s) {
 
 template <class Archive, SelfOf<Mesh> Self>
 void wire(Archive& archive, Self& s) {
-  auto& [name, nodes, node_ids, regions, cells, surfaces, node_sets, fields] = s;
-  archive(name, nodes, node_ids, regions, cells, surfaces, node_sets, fields);
+  auto& [name, nodes, node_ids, regions, cells, surfaces, node_sets, fields, deck] = s;
+  archive(name, nodes, node_ids, regions, cells, surfaces, node_sets, fields, deck);
 }
 
 template <class Archive, SelfOf<WorstCell> Self>

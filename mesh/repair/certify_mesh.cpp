@@ -16,6 +16,7 @@ constexpr double kClosedTolerance = 1e-10;  // relative; rounding of some 1e5 su
 }  // namespace
 
 MeshCertificate certify_mesh(const Mesh& mesh, const QualityReport& quality) {
+  if (mesh.cell_count() == 0) return {};  // points and springs alone
   const Surface& skin = mesh.surface("skin");
   // About a point of the part: far from the origin x . n dS is all rounding (hard case F2).
   const SurfaceIntegrals closed = integrate(mesh, skin, mesh.nodes.row(0).transpose());

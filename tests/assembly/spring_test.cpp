@@ -136,7 +136,71 @@ TEST(Springs, ThatMeanNothingAreRefused) {
   expect_parts(spring_refusal("[[point]]\nname = \"p\"\nat = [0.0, 0.0, 0.0]\n" + head +
                               "terms = [ { node_set = \"n0\", direction = \"x\" }, "
                               "{ point = \"p\", direction = \"rx\" } ]\n"),
-               {"direction", "rotation beside a displacement"});
+               {"coefficient", "rotation beside a displacement", "a lever arm"});
+}
+
+TEST(Matrices, OfStiffnessAndMassAreAddedOnTheirDofs) {
+  const mesh::Mesh mesh = bar();
+  const std::string terms =
+      "terms = [ { node_set = \"n0\", direction = \"x\" }, { node_set = \"n100\", direction = "
+      "\"y\" } ]\n";
+  const fe::FeModel without = build(mesh, kFoot).model;
+  const fe::FeModel with =
+      build(mesh, kFoot + ("[[matrix]]\n" + terms + "K = [4.0e6, -1.0e6, 3.0e6]\n[[matrix]]\n" +
+                           terms + "M = [5.0, 2.0, 7.0]\n"))
+          .model;
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(2, 3 * mesh.nodes.rows());
+  C(0, 3 * mesh.node_sets.at("n0")[0]) = 1.0;
+  C(1, 3 * mesh.node_sets.at("n100")[0] + 1) = 1.0;
+  const Eigen::MatrixXd t = C * with.T;
+  Eigen::Matrix2d K, M;
+  K << 4.0e6, -1.0e6, -1.0e6, 3.0e6;
+  M << 5.0, 2.0, 2.0, 7.0;
+  const Eigen::MatrixXd dK = full(with.K) - full(without.K), dM = full(with.M) - full(without.M);
+  EXPECT_LT((dK - t.transpose() * K * t).norm(), 1e-15 * full(with.K).norm());
+  EXPECT_LT((dM - t.transpose() * M * t).norm(), 1e-15 * full(with.M).norm());
+}
+
+// The weight of a mass matrix m I is that of a mass m.
+TEST(Matrices, OfMassHaveWeightAndCountInTheTotal) {
+  const mesh::Mesh mesh = bar();
+  const std::string load =
+      "[[load]]\nname = \"g\"\nkind = \"acceleration\"\ndirection = [0.6, 0.0, 0.8]\n";
+  const std::string on = "[[nodes]]\nname = \"p\"\nnode_set = \"n0\"\n";
+  const fe::FeModel mass =
+      build(mesh, on + load + "[[point_mass]]\non = \"p\"\nmass = 2.5\n").model;
+  const fe::FeModel matrix =
+      build(mesh,
+            on + load +
+                "[[matrix]]\nterms = [ { node_set = \"n0\", direction = \"x\" }, { node_set = "
+                "\"n0\", direction = \"y\" }, { node_set = \"n0\", direction = \"z\" } ]\n"
+                "M = [2.5, 0.0, 2.5, 0.0, 0.0, 2.5]\n")
+          .model;
+  EXPECT_LT((mass.loads.at("g") - matrix.loads.at("g")).norm(), 1e-14 * mass.loads.at("g").norm());
+  EXPECT_NEAR(mass.mass.mass, matrix.mass.mass, 1e-12 * mass.mass.mass);
+  EXPECT_LT((mass.mass.centre - matrix.mass.centre).norm(), 1e-12);
+}
+
+TEST(Matrices, WithoutMeaningAreRefused) {
+  const std::string one = "[[matrix]]\nterms = [ { node_set = \"n0\", direction = \"x\" } ]\n";
+  expect_parts(spring_refusal(one), {"found neither K nor M"});
+  expect_parts(spring_refusal(one + "K = [1.0]\nM = [1.0]\n"), {"found M as well"});
+  expect_parts(spring_refusal(one + "K = [1.0, 2.0]\n"),
+               {"found 2 numbers for 1 terms, expected 1: the lower triangle"});
+}
+
+TEST(Springs, MayHaveLeverArms) {
+  const fe::FeModel model = build(stiff_bar(), std::string(kHub) + R"(
+[[spring]]
+stiffness = 200.0
+terms = [ { point = "hub", direction = "x" }, { point = "hub", direction = "ry", coefficient = 0.5 } ]
+)")
+                                .model;
+  Eigen::MatrixXd want = Eigen::MatrixXd::Zero(6, 6);
+  want(0, 0) = 200.0;
+  want(0, 4) = want(4, 0) = 100.0;
+  want(4, 4) = 50.0;
+  EXPECT_EQ(full(model.K), want);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Unattached points, supports in any directions, equations that constrain a rigid motion.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -50,6 +51,85 @@ TEST(Points, ASingleFollowerDoesNotHoldItsReferencesRotation) {
                                "[[point]]\nname = \"a\"\nat = [0.0, 0.1, 0.45]\n[[coupling]]\ntype "
                                "= \"rigid\"\npoint = \"a\"\nnode_set = \"n0\"\n"),
                {"motion of a that moves nothing"});
+}
+
+// Both nodes turn freely, so that a rigid link between them is a rod: (u_b - u_a) . r = 0.
+TEST(Points, ALinkOfTwoNodesIsARodInAnyDirection) {
+  mesh::Mesh mesh = bar();
+  mesh.node_sets["a"] = mesh.node_sets.at("n0");
+  for (const int32_t node : mesh.node_sets.at("z1"))
+    if (mesh.nodes(node, 0) > 0.09 && mesh.nodes(node, 1) > 0.09) mesh.node_sets["b"] = {node};
+  const Eigen::RowVector3d r =
+      mesh.nodes.row(mesh.node_sets["b"][0]) - mesh.nodes.row(mesh.node_sets["a"][0]);
+  ASSERT_TRUE((r.array().abs() > 1e-3).all());  // skew
+  const BuiltModel link = build(mesh, std::string(kFoot) + R"(
+[[point]]
+name = "on_a"
+node_set = "a"
+[[coupling]]
+type = "rigid"
+point = "on_a"
+node_set = "b"
+)");
+  std::string rod = std::string(kFoot) + "[[equation]]\nterms = [\n";
+  for (int d = 0; d < 3; ++d)
+    for (const auto& [set, sign] : {std::pair("b", 1.0), std::pair("a", -1.0)})
+      rod += fmt::format("{{ node_set = \"{}\", direction = \"{}\", coefficient = {} }},\n", set,
+                         "xyz"[d], sign * r(d));
+  const BuiltModel equation = build(mesh, rod + "]\n");
+  EXPECT_EQ(link.model.size(), equation.model.size());
+  const Eigen::Index nodal = 3 * mesh.nodes.rows();
+  Eigen::VectorXd f = some_forces(nodal + 6);
+  f.tail<6>().setZero();
+  const Eigen::VectorXd u = solve_model(link.model, f).head(nodal);
+  const Eigen::VectorXd want = solve_model(equation.model, f.head(nodal));
+  EXPECT_LT((u - want).norm(), kSolve * want.norm());
+  // About its line it has no inertia: a mass that turns there needs more.
+  expect_parts(support_refusal(mesh, std::string(kFoot) + R"(
+[[point]]
+name = "on_a"
+node_set = "a"
+[[coupling]]
+type = "rigid"
+point = "on_a"
+node_set = "b"
+[[point_mass]]
+on = "on_a"
+mass = 1.0
+inertia = [1.0, 1.0, 1.0]
+)"),
+               {"point on_a", "mass on rotation about", "nothing attached"});
+}
+
+TEST(Nodes, KeepSomeDirectionsOfNodesAndPoints) {
+  const fe::FeModel model = build(bar(), R"(
+[[point]]
+name = "hub"
+at = [0.05, 0.05, 0.4]
+[[coupling]]
+point = "hub"
+surface = "z1"
+[[nodes]]
+name = "retained"
+[[nodes.term]]
+node_set = "n0"
+directions = "xz"
+[[nodes.term]]
+points = ["hub"]
+directions = ["y", "rz"]
+)")
+                                .model;
+  const rom::DofSet& set = model.set("retained");
+  EXPECT_EQ(set.labels, (std::vector<std::string>{"retained[0].x", "retained[0].z", "retained[1].y",
+                                                  "retained[1].rz"}));
+  EXPECT_EQ(set.dofs[2], model.set("hub").dofs[1]);
+  EXPECT_EQ(set.dofs[3], model.set("hub").dofs[5]);
+  EXPECT_EQ(set.is_rotation.back(), 1);
+  expect_parts(support_refusal(bar(),
+                               "[[nodes]]\nname = \"n\"\n[[nodes.term]]\nnode_set = "
+                               "\"n0\"\ndirections = \"xy\"\n[[point_mass]]\non = "
+                               "\"n\"\nmass = 1.0\n"),
+               {"point_mass on n", "found 2 directions"});
 }
 
 TEST(Points, OnAMeshNodeMoveWithIt) {

@@ -7,9 +7,9 @@ import calculix
 import h5py
 import numpy as np
 import scipy.io
-import scipy.linalg
 import scipy.sparse as sp
 import stages
+from other_formats import frequencies, read_bulk
 
 
 REDUCED = "this deck has matrices reduced from gmsh's mesh, so no result is stored"
@@ -19,11 +19,6 @@ def reduced_matrices(path):
     """K_rr, M_rr of a reduced part."""
     with h5py.File(path) as rom:
         return rom["K_rr"][()], rom["M_rr"][()]
-
-
-def frequencies(K, M):
-    """[Hz], ascending; rigid motions may be imaginary and count as zero."""
-    return np.sqrt(np.maximum(scipy.linalg.eigh(K, M, eigvals_only=True), 0.0)) / (2.0 * np.pi)
 
 
 class Exported(stages.PipelineTest):
@@ -157,28 +152,6 @@ class Calculix(Exported):
                 i, j = row_of[int(a), int(d)], row_of[int(b), int(e)]
                 read[i, j] = read[j, i] = float(value)
             np.testing.assert_array_equal(read, matrix)
-
-
-def read_bulk(text):
-    """A small reader of large-field bulk data: ({DMIG name: {(column, row): value}}, {grid: (position, PS)}, spoints)."""
-    matrices, grids, spoints, column, lines = {}, {}, [], None, text.splitlines()
-    number = lambda field: float(field.replace("D", "E"))
-    for k, line in enumerate(lines):
-        fields = [line[8 + 16 * f:24 + 16 * f].strip() for f in range(4)]
-        if line.startswith("DMIG    "):
-            matrices[line[8:16].strip()] = {}
-            assert [line[16 + 8 * f:24 + 8 * f].strip() for f in range(3)] == ["0", "6", "2"], line  # symmetric, double
-        elif line.startswith("DMIG*"):
-            column = (fields[0], (int(fields[1]), int(fields[2])))
-        elif line.startswith("GRID*"):
-            column, following = None, lines[k + 1]
-            position = [number(fields[2]), number(fields[3]), number(following[8:24])]
-            grids[int(fields[0])] = (position, following[40:56].strip())
-        elif line.startswith("SPOINT"):
-            spoints.append(int(line[8:16]))
-        elif line.startswith("*") and column:
-            matrices[column[0]][column[1], (int(fields[0]), int(fields[1]))] = number(fields[2])
-    return matrices, grids, spoints
 
 
 class NastranDmig(Exported):
@@ -338,7 +311,7 @@ class MatricesOfOthers(Exported):
 class MakeRules(Exported):
     """`make part.mtx` by clatter.mk; no export is made twice."""
 
-    KINDS = ("mtx", "inp", "pch", "fem")
+    KINDS = ("mtx", "inp", "pch", "op4", "flexascii", "fem")
 
     def make(self, *names):
         (self.folder / "Makefile").write_text(f"include {stages.SOURCE}/tools/clatter.mk\n")

@@ -125,6 +125,33 @@ TEST(CliMesh, HardG8_TooPoorCellsAreRefusedWithPositionsUnlessAccepted) {
   EXPECT_NE(imported.err.find("are poor: "), std::string::npos) << imported.err;
 }
 
+TEST(CliMesh, CheckListsADeckAndWritesNothing) {
+  const Folder folder;
+  const std::string deck = (folder / "t.bdf").string();
+  const std::string tet =
+      "PSOLID,1,1\nMAT1,1,210.,,.3,7.8\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n"
+      "GRID,4,,0.,0.,1.\nCTETRA,1,1,1,2,3,4\n";
+  std::ofstream(deck) << tet << "ENDDATA\n";
+  const Outcome read = run(folder, deck + " --check");
+  EXPECT_EQ(read.code, 0) << read.err;
+  EXPECT_NE(read.out.find("4  card GRID"), std::string::npos) << read.out;
+  EXPECT_NE(read.out.find("is read: nodes: 4, cells: 1"), std::string::npos) << read.out;
+
+  std::ofstream(deck) << tet << "CBAR,1,1,1,2\nENDDATA\n";
+  const Outcome refused = run(folder, deck + " --check");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.out.find("card CBAR"), std::string::npos) << refused.out;
+  EXPECT_NE(refused.err.find("1 row is refused, see the table"), std::string::npos) << refused.err;
+  EXPECT_EQ(run(folder, deck + " --check --ignore CBAR").code, 0);
+  const Outcome json = run(folder, deck + " --check --json");
+  EXPECT_EQ(json.code, 2);
+  EXPECT_EQ(json.out.find("{\"rows\": ["), 0u) << json.out;
+
+  const Outcome no_output = run(folder, deck + " --units m-kg-s");
+  EXPECT_EQ(no_output.code, 2);
+  EXPECT_NE(no_output.err.find("--output is required"), std::string::npos) << no_output.err;
+}
+
 TEST(CliMesh, UnknownKeyIsBadInput) {
   expect_refused(kBeam + "elements_per_trun = 3\n", 2, "elements_per_turn");
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -31,7 +32,14 @@ NodeIndex rigid_reference(Model& model, int32_t row) {
 
 void read_rigid_body(Model& model, size_t use, const Card& card) {
   const Keyword& keyword = card.keyword();
-  keyword.allow({"NSET", "ELSET", "REFNODE", "ROTNODE"}, model.source, model.ignore);
+  keyword.allow(
+      {"NSET", "ELSET", "REFNODE", "ROTNODE", "TIENSET", "PINNSET", "POSITION", "ISOTHERMAL"},
+      model.source, model.ignore);
+  if (keyword.choice("POSITION", "INPUT") != "INPUT") {
+    model.source.fail(card.origin(),
+                      "*RIGID BODY: found POSITION=CENTER OF MASS, which moves its reference node, "
+                      "expected that node at its place");
+  }
   const int32_t row =
       model.sets.node_named(keyword.required("REFNODE", model.source), use, card.origin());
   Rigid rigid;
@@ -39,13 +47,17 @@ void read_rigid_body(Model& model, size_t use, const Card& card) {
   rigid.where = model.source.where(card.origin());
   rigid.reference = rigid_reference(model, row);
   std::vector<int32_t> rows;
-  if (keyword.has("NSET")) {
-    rows = model.sets.nodes(use, keyword.required("NSET", model.source), card.origin());
-  } else {
+  for (const char* nodes : {"NSET", "TIENSET"}) {
+    if (!keyword.has(nodes)) continue;
+    const auto& more = model.sets.nodes(use, keyword.required(nodes, model.source), card.origin());
+    rows.insert(rows.end(), more.begin(), more.end());
+  }
+  const bool only_nodes = keyword.has("NSET") || keyword.has("TIENSET") || keyword.has("PINNSET");
+  if (keyword.has("ELSET") || !only_nodes) {
     const std::string& set = keyword.required("ELSET", model.source);
     for (const int32_t element : model.sets.elements(use, set, card.origin())) {
-      if (element >= model.numbering.cells()) continue;
-      const auto nodes = model.numbering.nodes_of(element);
+      if (model.numbering.point(element) != nullptr) continue;
+      const auto nodes = model.numbering.rows_of(element);
       rows.insert(rows.end(), nodes.begin(), nodes.end());
     }
   }
@@ -62,8 +74,53 @@ void read_rigid_body(Model& model, size_t use, const Card& card) {
     model.node_map.set_rotation_node(rotation, rigid.reference);
     std::erase(rows, rotation);
   }
-  model.dependents.emplace_back(model.deck.rigid.size(), std::move(rows));
+  const std::string name = rigid.name;
+  if (!rows.empty()) {
+    model.dependents.emplace_back(model.deck.rigid.size(), std::move(rows));
+    model.deck.rigid.push_back(rigid);
+  }
+  if (!keyword.has("PINNSET")) return;
+  const auto& pins =
+      model.sets.nodes(use, keyword.required("PINNSET", model.source), card.origin());
+  rigid.name = name + "_pins";
+  rigid.dofs = kTranslations;
+  model.dependents.emplace_back(model.deck.rigid.size(), pins);
   model.deck.rigid.push_back(std::move(rigid));
+}
+
+// Lines "nodes, first DoF, last DoF" that follow the reference node.
+void read_kinematic_coupling(Model& model, size_t use, const Card& card) {
+  const Keyword& keyword = card.keyword();
+  keyword.allow({"REFNODE"}, model.source, model.ignore);
+  const int32_t row =
+      model.sets.node_named(keyword.required("REFNODE", model.source), use, card.origin());
+  std::map<DofMask, std::vector<int32_t>> rows;
+  for (size_t i = 0; i < card.size(); ++i) {
+    const Fields fields = card.line(i, model.source);
+    fields.at_most(3, "nodes, first and last DoF");
+    const DofMask mask = fields.size() > 1 ? dof_range(fields, 1) : kAllDofs;
+    for (const int32_t node : model.sets.nodes_at(fields, 0, use)) {
+      if (mask != kAllDofs && !model.node_map.displacement_system(node).empty()) {
+        fields.fail(
+            "some directions only, of nodes with *TRANSFORM, are not supported; expected 1 "
+            "to 6");
+      }
+      rows[mask].push_back(node);
+    }
+  }
+  for (auto& [mask, nodes] : rows) {
+    Rigid rigid;
+    rigid.name = fmt::format("kinematic_{}", model.deck.rigid.size() + 1);
+    rigid.where = model.source.where(card.origin());
+    rigid.reference = rigid_reference(model, row);
+    rigid.dofs = mask;
+    if (&nodes == &rows.begin()->second && model.node_map.mesh_node(row) != NodeMap::kNone) {
+      nodes.push_back(row);  // the reference is a mesh node: its point moves it
+    }
+    sort_unique(nodes);
+    model.dependents.emplace_back(model.deck.rigid.size(), std::move(nodes));
+    model.deck.rigid.push_back(std::move(rigid));
+  }
 }
 
 // *COUPLING and the line of *KINEMATIC or *DISTRIBUTING after it.
@@ -175,8 +232,8 @@ void expect_coupling_done(const Model& model, const Card* open) {
 
 void read_tie(Model& model, size_t use, const Card& card) {
   const Keyword& keyword = card.keyword();
-  keyword.allow({"NAME", "POSITIONTOLERANCE", "ADJUST", "TYPE", "NOROTATION"}, model.source,
-                model.ignore);
+  keyword.allow({"NAME", "POSITIONTOLERANCE", "ADJUST", "TYPE", "NOROTATION", "NOTHICKNESS"},
+                model.source, model.ignore);
   if (card.size() != 1) {
     model.source.fail(card.origin(), fmt::format("*TIE: found {} data lines, expected one: slave, "
                                                  "master",
@@ -209,6 +266,8 @@ DofMask dof_range(const Fields& fields, size_t i) {
 void build_couplings(Model& model) {
   for_each_card(model, {"RIGIDBODY"},
                 [&](size_t use, const Card& card) { read_rigid_body(model, use, card); });
+  for_each_card(model, {"KINEMATICCOUPLING"},
+                [&](size_t use, const Card& card) { read_kinematic_coupling(model, use, card); });
   Coupling coupling;
   bool refused = false;
   for_each_card(model, {"COUPLING", "KINEMATIC", "DISTRIBUTING"},
@@ -254,6 +313,13 @@ void finish_couplings(Model& model) {
       if (node_index != NodeMap::kNone) rigid.dependents.push_back(node_index);
     }
   }
+  // Of rigid elements, say, that touch no solid.
+  std::erase_if(model.deck.rigid, [&](const Rigid& rigid) {
+    if (!rigid.dependents.empty()) return false;
+    model.deck.notes.push_back(fmt::format(
+        "{}: the rigid body moves no node of a solid or of a mass: left out", rigid.where));
+    return true;
+  });
 }
 
 }  // namespace clatter::mesh::deck::abaqus

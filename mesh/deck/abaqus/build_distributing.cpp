@@ -11,13 +11,14 @@ namespace {
 const PointElement& coupling_element(Model& model, size_t use, const Card& card) {
   const std::string& set = card.keyword().required("ELSET", model.source);
   const auto& elements = model.sets.elements(use, set, card.origin());
-  const int32_t n_cells = model.numbering.cells();
-  if (elements.size() != 1 || elements.front() < n_cells) {
+  const PointElement* point =
+      elements.size() == 1 ? model.numbering.point(elements.front()) : nullptr;
+  if (point == nullptr) {
     model.source.fail(card.origin(), fmt::format("*DISTRIBUTING COUPLING: expected one element "
                                                  "DCOUP3D in {}",
                                                  set));
   }
-  return model.numbering.points()[static_cast<size_t>(elements.front() - n_cells)];
+  return *point;
 }
 
 // CalculiX: the reference's displacement is the weighted mean, regardless of the lever arm.
@@ -83,18 +84,15 @@ void read_distributing_coupling(Model& model, size_t use, const Card& card) {
   }
   if (!(sum > 0.0)) model.source.fail(card.origin(), "expected nodes of solids");
   // One thousandth of the radius: coordinates may have few digits.
-  if (lever(model.deck, distributing, model.numbering.at(element.node)) <= 1e-3) {
-    model.deck.distributing.push_back(std::move(distributing));
-  } else if (model.ignore.skips("MOMENT")) {
-    add_mean_equations(model, distributing);
-  } else {
-    model.source.fail(
-        card.origin(),
-        fmt::format("node {} of *DISTRIBUTING COUPLING is not at the weighted centre: "
-                    "Abaqus balances the moment of its force, CalculiX does not; "
-                    "ignore = [\"MOMENT\"] reads it as CalculiX does",
-                    model.numbering.node_ids()[static_cast<size_t>(element.node)]));
+  if (lever(model.deck, distributing, model.numbering.at(element.node)) > 1e-3) {
+    if (model.ignore.skips("MOMENT")) return add_mean_equations(model, distributing);
+    model.deck.notes.push_back(fmt::format(
+        "{}: node {} of *DISTRIBUTING COUPLING is not at the weighted centre: the moment of its "
+        "force is balanced, as in Abaqus; ignore = [\"MOMENT\"] loses it, as CalculiX does",
+        model.source.where(card.origin()),
+        model.numbering.node_ids()[static_cast<size_t>(element.node)]));
   }
+  model.deck.distributing.push_back(std::move(distributing));
 }
 
 }  // namespace

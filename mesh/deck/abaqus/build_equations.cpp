@@ -23,19 +23,49 @@ class EquationLines {
       const Fields head = card_.line(line_++, model_.source);
       head.at_most(1, "number of terms");
       const int32_t count = head.integer(0, "number of terms", 1, 1 << 24);
-      equations.emplace_back();
-      equations.back().origin = head.origin();
-      read_terms(count, equations.back());
+      add_each(head, read_terms(count, head.origin()), equations);
     }
     return equations;
   }
 
  private:
-  void read_terms(int32_t count, RawEquation& equation) {
+  struct SetTerm {
+    std::vector<int32_t> rows;
+    int direction;
+    double coefficient;
+  };
+
+  // Sets of nodes stand for one equation for each node of the first: the others have as many, or
+  // one node for all of them.
+  void add_each(const Fields& head, const std::vector<SetTerm>& terms,
+                std::vector<RawEquation>& equations) {
+    const size_t count = terms.front().rows.size();
+    for (const SetTerm& term : terms) {
+      if (term.rows.size() != count && term.rows.size() != 1) {
+        head.fail(
+            fmt::format("found sets of {} and {} nodes, expected as many as in the first, or "
+                        "one node",
+                        count, term.rows.size()));
+      }
+    }
+    entries_ += count * terms.size();
+    if (entries_ > kMostTerms) head.fail("found too many terms in all equations");
+    for (size_t i = 0; i < count; ++i) {
+      RawEquation& equation = equations.emplace_back();
+      equation.origin = head.origin();
+      for (const SetTerm& term : terms) {
+        equation.terms.push_back(
+            {term.rows[term.rows.size() == 1 ? 0 : i], term.direction, term.coefficient});
+      }
+    }
+  }
+
+  std::vector<SetTerm> read_terms(int32_t count, Origin origin) {
+    std::vector<SetTerm> terms;
     int32_t missing = count;
     while (missing > 0) {
       if (line_ == card_.size()) {
-        model_.source.fail(equation.origin,
+        model_.source.fail(origin,
                            fmt::format("found {} terms, expected {}", count - missing, count));
       }
       const Fields fields = card_.line(line_++, model_.source);
@@ -46,17 +76,22 @@ class EquationLines {
                         fields.size(), missing));
       }
       for (size_t i = 0; i < fields.size(); i += 3, --missing) {
-        equation.terms.push_back({model_.sets.node_at(fields, i, use_),
-                                  fields.integer(i + 1, "DoF", 1, 6) - 1,
-                                  fields.number(i + 2, "coefficient")});
+        terms.push_back({model_.sets.nodes_in_order(fields, i, use_),
+                         fields.integer(i + 1, "DoF", 1, 6) - 1,
+                         fields.number(i + 2, "coefficient")});
+        if (terms.back().rows.empty())
+          fields.fail(fmt::format("found no node in {}", fields.text(i)));
       }
     }
+    return terms;
   }
+
+  static constexpr size_t kMostTerms = size_t{1} << 26;
 
   Model& model_;
   size_t use_;
   const Card& card_;
-  size_t line_ = 0;
+  size_t line_ = 0, entries_ = 0;
 };
 
 // Sums of coefficients by node index and direction, in the basic axes.

@@ -13,12 +13,12 @@ std::vector<PointElement> point_elements(Model& model, size_t use, const Card& c
   const std::string& set = card.keyword().required("ELSET", model.source);
   std::vector<PointElement> out;
   for (const int32_t element : model.sets.elements(use, set, card.origin())) {
-    const int32_t point = element - model.numbering.cells();
-    if (point < 0 || !model.numbering.points()[static_cast<size_t>(point)].type.starts_with(type)) {
+    const PointElement* point = model.numbering.point(element);
+    if (point == nullptr || !point->type.starts_with(type)) {
       model.source.fail(card.origin(), fmt::format("{}: expected elements {} in {}",
                                                    card.keyword().name, type, set));
     }
-    out.push_back(model.numbering.points()[static_cast<size_t>(point)]);
+    out.push_back(*point);
   }
   return out;
 }
@@ -59,7 +59,7 @@ void build_masses(Model& model) {
     return model.deck.masses.back();
   };
   for_each_card(model, {"MASS", "ROTARYINERTIA"}, [&](size_t use, const Card& card) {
-    card.keyword().allow({"ELSET"}, model.source, model.ignore);
+    card.keyword().allow({"ELSET", "ALPHA", "COMPOSITE"}, model.source, model.ignore);
     const Fields fields = only_line(model, card);
     if (card.keyword().key == "MASS") {
       fields.at_most(1, "mass");

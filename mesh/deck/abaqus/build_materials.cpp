@@ -174,14 +174,29 @@ void read_expansion(Model& model, const Card& card, Material* material) {
   }
 }
 
-// *ELASTIC, *DENSITY or *EXPANSION of `material`, none if *MATERIAL itself was refused. A material
-// with a refused part is dropped.
+// D = ALPHA M + BETA K; other kinds are of steps that are not read.
+void read_damping(Model& model, const Card& card, Material* material) {
+  const Keyword& keyword = card.keyword();
+  constexpr int64_t kNoMore = 0;  // it is counted
+  model.refusals.contents().pass("keyword", keyword.name, model.source, card.origin(),
+                                 "damping, offered to the recipe", kNoMore);
+  const auto value = [&](const char* name) {
+    const std::string* text = keyword.find(name);
+    return text == nullptr ? 0.0 : Fields(*text, model.source, card.origin()).number(0, name);
+  };
+  material->mass_damping = value("ALPHA");
+  material->stiffness_damping = value("BETA");
+}
+
+// *ELASTIC, *DENSITY, *EXPANSION or *DAMPING of `material`, none if *MATERIAL itself was refused. A
+// material with a refused part is dropped.
 void read_part(Model& model, const Card& card, Material* material) {
   if (material == nullptr) throw FollowUp();
   const Keyword& keyword = card.keyword();
   try {
     if (keyword.key == "ELASTIC") return read_elastic(model, card, material);
     if (keyword.key == "EXPANSION") return read_expansion(model, card, material);
+    if (keyword.key == "DAMPING") return read_damping(model, card, material);
     keyword.allow({}, model.source, model.ignore);
     material->density = constants_of(model, card, 1).front();
   } catch (const InputError&) {
@@ -195,14 +210,15 @@ void read_part(Model& model, const Card& card, Material* material) {
 void build_materials(Model& model) {
   Material* material = nullptr;
   for_each_card(
-      model, {"MATERIAL", "ELASTIC", "DENSITY", "EXPANSION"}, [&](size_t use, const Card& card) {
+      model, {"MATERIAL", "ELASTIC", "DENSITY", "EXPANSION", "DAMPING"},
+      [&](size_t use, const Card& card) {
         const Keyword& keyword = card.keyword();
         if (keyword.key != "MATERIAL") return read_part(model, card, material);
         material = nullptr;
         if (use != model.numbering.main_use()) {
           model.source.fail(card.origin(), "found *MATERIAL inside a part, expected it outside");
         }
-        keyword.allow({"NAME"}, model.source, model.ignore);
+        keyword.allow({"NAME", "RTOL", "SRATEFACTOR"}, model.source, model.ignore);
         const std::string& name = keyword.required("NAME", model.source);
         if (!model.material_names.emplace(folded(name), name).second) {
           model.source.fail(card.origin(), fmt::format("found a second material {}", name));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "mesh/deck/abaqus/model.hpp"
+#include "mesh/deck/skins.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace {
@@ -19,6 +20,8 @@ std::vector<int32_t> take_nodes(const Numbering& numbering, Mesh& mesh) {
   }
   mesh.nodes.resize(count, 3);
   mesh.node_ids.resize(static_cast<size_t>(count));
+  mesh.deck.largest_node = numbering.highest_node();
+  mesh.deck.largest_element = numbering.highest_element();
   for (size_t row = 0; row < node.size(); ++row) {
     if (node[row] == NodeMap::kNone) continue;
     mesh.nodes.row(node[row]) = numbering.at(static_cast<int32_t>(row));
@@ -97,10 +100,13 @@ class Blocks {
 void build_mesh(Model& model) {
   if (model.numbering.cells() == 0) {
     model.refusals.raise();
+    std::map<std::string, int64_t> others;
+    for (const ThinElement& one : model.numbering.thin()) ++others[one.type];
     throw InputError(
-        fmt::format("{}: found no solid elements, expected some of C3D4 C3D5 C3D6 "
+        fmt::format("{}: found no solid elements{}, expected some of C3D4 C3D5 C3D6 "
                     "C3D8 C3D8I C3D8R C3D10 C3D15 C3D20 C3D20R",
-                    model.source.where(model.source.origin())));
+                    model.source.where(model.source.origin()),
+                    others.empty() ? "" : fmt::format(" but {}", counted(others))));
   }
   build_regions(model);
   model.node_map.set_mesh_nodes(take_nodes(model.numbering, model.deck.mesh));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mesh/deck/abaqus/build_equations.hpp"
+#include "mesh/deck/node_sets.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace {
@@ -191,25 +192,9 @@ void add_mean_rotation(Model& model, size_t use, const MpcLines& lines,
   equations.push_back(std::move(equation));
 }
 
-}  // namespace
-
 // PIN and TIE: equal translations. BEAM: a rigid rod from the first to the second node.
-void add_mpc(Model& model, size_t use, const MpcLines& lines, std::vector<RawEquation>& equations) {
-  const Fields& fields = lines.front();
-  const std::string type = folded(fields.text(0));
-  if (type == "PLANE") return add_plane(model, use, lines, equations);
-  if (type == "STRAIGHT") return add_straight(model, use, lines, equations);
-  if (type == "MEANROT") return add_mean_rotation(model, use, lines, equations);
-  if (type != "PIN" && type != "TIE" && type != "BEAM") {
-    fields.fail(
-        fmt::format("*MPC of type {} is not supported, expected PIN, TIE, BEAM, PLANE, "
-                    "STRAIGHT or MEANROT",
-                    type));
-  }
-  fields.at_most(3, "type and two nodes");
-  if (lines.size() > 1) lines[1].fail(fmt::format("expected one line of *MPC {}", type));
-  const int32_t a = model.sets.node_at(fields, 1, use);
-  const int32_t b = model.sets.node_at(fields, 2, use);
+void add_pair(Model& model, const std::string& type, const Fields& fields, int32_t a, int32_t b,
+              std::vector<RawEquation>& equations) {
   NodeMap& node_map = model.node_map;
   if (type == "BEAM") {
     Rigid rigid;
@@ -229,6 +214,43 @@ void add_mpc(Model& model, size_t use, const MpcLines& lines, std::vector<RawEqu
   for (int k = 0; k < (type == "TIE" && rotations ? 6 : 3); ++k) {
     equations.push_back({fields.origin(), {{a, k, 1.0}, {b, k, -1.0}}});
   }
+}
+
+}  // namespace
+
+// Of two sets the nodes in pairs, of a set and a node each with that node.
+void add_mpc(Model& model, size_t use, const MpcLines& lines, std::vector<RawEquation>& equations) {
+  const Fields& fields = lines.front();
+  const std::string type = folded(fields.text(0));
+  if (type == "PLANE") return add_plane(model, use, lines, equations);
+  if (type == "STRAIGHT") return add_straight(model, use, lines, equations);
+  if (type == "MEANROT") return add_mean_rotation(model, use, lines, equations);
+  if (type != "PIN" && type != "TIE" && type != "BEAM") {
+    fields.fail(
+        fmt::format("*MPC of type {} is not supported, expected PIN, TIE, BEAM, PLANE, "
+                    "STRAIGHT or MEANROT; [[equation]] of the recipe replaces others",
+                    type));
+  }
+  fields.at_most(3, "type and two nodes or node sets");
+  if (lines.size() > 1) lines[1].fail(fmt::format("expected one line of *MPC {}", type));
+  const std::vector<int32_t> a = model.sets.nodes_in_order(fields, 1, use);
+  const std::vector<int32_t> b = model.sets.nodes_in_order(fields, 2, use);
+  if (b.size() != 1 && a.size() != b.size()) {
+    fields.fail(
+        fmt::format("*MPC {}: found {} and {} nodes, expected as many, or one as the second", type,
+                    a.size(), b.size()));
+  }
+  // A rod from each node of a set to one node is one rigid body.
+  const size_t first_body = model.deck.rigid.size(), first_rows = model.dependents.size();
+  for (size_t i = 0; i < a.size(); ++i) {
+    add_pair(model, type, fields, a[i], b[b.size() == 1 ? 0 : i], equations);
+    if (type != "BEAM" || i == 0 || b.size() != 1) continue;
+    auto& rows = model.dependents[first_rows].second;
+    rows.push_back(a[i]);
+    model.dependents.pop_back();
+    model.deck.rigid.pop_back();
+  }
+  if (first_body < model.deck.rigid.size()) sort_unique(model.dependents[first_rows].second);
 }
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -87,7 +87,7 @@ class Sections {
   // Only entire regions rotate: the part that a load rotates becomes a region of its own.
   void split(size_t use, const Fields& fields) {
     std::vector<bool> turns(region_.size(), false);
-    for (const int32_t element : model_.sets.elements_at(fields, 0, use)) {
+    for (const int32_t element : model_.sets.elements_or_all(fields, 0, use)) {
       if (element < model_.numbering.cells()) turns[static_cast<size_t>(element)] = true;
     }
     std::vector<bool> stays(model_.deck.regions.size(), false);
@@ -132,21 +132,77 @@ class Sections {
       }
     }
     if (rest_only) sets.clear();
+    std::vector<int32_t> block(region_.size(), kNoRegion);  // which set of *ELEMENT
+    int32_t blocks = 0;
     for (const auto& [key, set] : sets) {
-      const int32_t region = new_region(key.first, set->name, key.second);
-      for (const SetChunk& chunk : set->chunks) fill(key.first, chunk, region);
+      for (const SetChunk& chunk : set->chunks) fill(key.first, chunk, blocks, block);
+      ++blocks;
+    }
+    std::vector<int32_t> region_of(static_cast<size_t>(blocks), kNoRegion);
+    if (!rest_only) name_unions(block, region_of);
+    size_t number = 0;
+    for (const auto& [key, set] : sets) {
+      int32_t& region = region_of[number++];
+      if (region == kNoRegion) region = new_region(key.first, set->name, key.second);
+    }
+    for (size_t cell = 0; cell < block.size(); ++cell) {
+      if (block[cell] != kNoRegion) region_[cell] = region_of[static_cast<size_t>(block[cell])];
     }
     if (std::find(region_.begin(), region_.end(), kNoRegion) == region_.end()) return;
     const int32_t rest = new_region(model_.numbering.main_use(), "solid", 0);
     std::replace(region_.begin(), region_.end(), kNoRegion, rest);
   }
 
-  void fill(size_t use, const SetChunk& chunk, int32_t region) {
+  // Gmsh writes each volume as a set of *ELEMENT and then groups of volumes as *ELSET: a set of
+  // complete blocks is a region with its name, the smaller one where two of them share a block.
+  void name_unions(const std::vector<int32_t>& block, std::vector<int32_t>& region_of) {
+    struct Union {
+      size_t use;
+      const IdSet* set;
+      std::vector<int32_t> blocks;
+    };
+    std::vector<int64_t> size(region_of.size(), 0);
+    for (const int32_t b : block) {
+      if (b != kNoRegion) ++size[static_cast<size_t>(b)];
+    }
+    std::vector<Union> unions;
+    for (size_t u = 0; u < model_.numbering.uses().size(); ++u) {
+      for (const auto& [key, set] : model_.numbering.uses()[u].scope->element_sets) {
+        const auto reads_rows = [](const SetChunk& chunk) {
+          return chunk.row_begin != chunk.row_end;
+        };
+        if (std::any_of(set.chunks.begin(), set.chunks.end(), reads_rows)) continue;
+        std::map<int32_t, int64_t> found;
+        for (const int32_t element : model_.sets.elements(u, set.name, set.chunks.front().origin)) {
+          if (element < model_.numbering.cells()) ++found[block[static_cast<size_t>(element)]];
+        }
+        Union one{u, &set, {}};
+        bool complete = !found.empty();
+        for (const auto& [b, count] : found) {
+          complete = complete && b != kNoRegion && count == size[static_cast<size_t>(b)];
+          one.blocks.push_back(b);
+        }
+        if (complete) unions.push_back(std::move(one));
+      }
+    }
+    std::stable_sort(unions.begin(), unions.end(), [](const Union& a, const Union& b) {
+      return std::pair(a.blocks.size(), a.set->chunks.front().origin) <
+             std::pair(b.blocks.size(), b.set->chunks.front().origin);
+    });
+    for (const Union& one : unions) {
+      const auto taken = [&](int32_t b) { return region_of[static_cast<size_t>(b)] != kNoRegion; };
+      if (std::any_of(one.blocks.begin(), one.blocks.end(), taken)) continue;
+      const int32_t region = new_region(one.use, one.set->name, one.set->chunks.front().origin);
+      for (const int32_t b : one.blocks) region_of[static_cast<size_t>(b)] = region;
+    }
+  }
+
+  void fill(size_t use, const SetChunk& chunk, int32_t value, std::vector<int32_t>& of_cells) {
     if (chunk.row_begin == chunk.row_end) return;
     const auto table = static_cast<size_t>(model_.numbering.uses()[use].first_table + chunk.table);
     const int32_t first = model_.numbering.tables()[table].first;
-    std::fill(region_.begin() + first + chunk.row_begin, region_.begin() + first + chunk.row_end,
-              region);
+    std::fill(of_cells.begin() + first + chunk.row_begin, of_cells.begin() + first + chunk.row_end,
+              value);
   }
 
   int32_t id_of(int32_t cell) const {

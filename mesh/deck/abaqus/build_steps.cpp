@@ -88,8 +88,9 @@ class Steps {
 
   void check_linear(const Card& card) {
     const Keyword& keyword = card.keyword();
-    keyword.allow({"NAME", "INC", "NLGEOM", "PERTURBATION", "AMPLITUDE", "UNSYMM"}, model_.source,
-                  model_.ignore);
+    keyword.allow({"NAME", "INC", "NLGEOM", "PERTURBATION", "AMPLITUDE", "UNSYMM", "EXTRAPOLATION",
+                   "CONVERTSDI", "SOLVER"},
+                  model_.source, model_.ignore);
     if (keyword.has("NLGEOM") && keyword.choice("NLGEOM", "NO") != "NO" &&
         !model_.ignore.skips("NLGEOM")) {
       model_.source.fail(card.origin(),
@@ -109,21 +110,31 @@ class Steps {
     if (key == "TEMPERATURE") loads_.read_temperatures(use, card, number_);
     if (key == "RETAINEDNODALDOFS") read_retained(use, card);
     if (key == "STATIC") {
-      card.keyword().allow({"SOLVER", "DIRECT"}, model_.source, model_.ignore);
+      card.keyword().allow({"SOLVER", "DIRECT", "TIMERESET", "TOTALTIMEATSTART", "STABILIZE",
+                            "ALLSDTOL", "CONTINUE", "FACTOR"},
+                           model_.source, model_.ignore);
       step_.kind = Step::Kind::kStatic;
     }
     if (key == "FREQUENCY") read_frequency(card);
   }
 
   void read_frequency(const Card& card) {
-    card.keyword().allow({"SOLVER", "STORAGE", "GLOBAL", "EIGENSOLVER", "NORMALIZATION"},
-                         model_.source, model_.ignore);
+    card.keyword().allow(
+        {"SOLVER", "STORAGE", "GLOBAL", "EIGENSOLVER", "NORMALIZATION", "SIM", "ACOUSTICCOUPLING",
+         "DAMPINGPROJECTION", "NUMBERINTERVAL", "PROPERTYEVALUATION", "RESIDUALMODES", "NSET"},
+        model_.source, model_.ignore);
     step_.kind = Step::Kind::kFrequency;
     if (card.size() == 0) return;
     const Fields fields = card.line(0, model_.source);
     if (!fields.blank(0)) {
       step_.modes = fields.integer(0, "number of modes", 1, std::numeric_limits<int32_t>::max());
     }
+    if (fields.blank(1) && fields.blank(2)) return;
+    model_.deck.notes.push_back(fmt::format(
+        "{}: *FREQUENCY asks for modes from {} to {} (per unit of time): give the limit to "
+        "clatter-modal",
+        model_.source.where(fields.origin()), fields.blank(1) ? "0" : fields.text(1),
+        fields.blank(2) ? "any frequency" : fields.text(2)));
   }
 
   void read_retained(size_t use, const Card& card) {
@@ -196,7 +207,13 @@ void build_initial_temperature(Model& model) {
   for_each_card(model, {"INITIALCONDITIONS"}, [&](size_t use, const Card& card) {
     const Keyword& keyword = card.keyword();
     keyword.allow({"TYPE"}, model.source, model.ignore);
-    if (keyword.choice("TYPE", "") != "TEMPERATURE") {
+    const std::string type = keyword.choice("TYPE", "");
+    if (type == "VELOCITY" || type == "FIELD") {
+      model.refusals.contents().pass("keyword", keyword.name + ", TYPE=" + type, model.source,
+                                     card.origin(), "of a state that linear statics do not have");
+      return;
+    }
+    if (type != "TEMPERATURE") {
       model.source.fail(card.origin(),
                         "*INITIAL CONDITIONS: expected TYPE=TEMPERATURE; ignore = "
                         "[\"*INITIAL CONDITIONS\"] skips all of them");

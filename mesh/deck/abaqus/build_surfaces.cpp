@@ -125,10 +125,19 @@ class SurfaceReader {
     model_.node_surfaces[key] = std::move(rows);
   }
 
-  // "elements, S3", or "elements": all their faces on the outside of the model.
+  // "elements, S3", or "elements": all their faces on the outside of the model. Elements of two
+  // dimensions are the faces of the solids that they lie on.
   void add_line(size_t use, const Fields& fields, std::vector<CellFaceId>& faces) {
     fields.at_most(2, "elements, face");
     std::vector<int32_t> cells = model_.sets.elements_at(fields, 0, use);
+    std::vector<const ThinElement*> thin;
+    for (const int32_t element : cells) {
+      const ThinElement* one = numbering_.thin(element);
+      if (one != nullptr && one->face) thin.push_back(one);
+    }
+    const bool only_thin = !thin.empty() && thin.size() == cells.size();
+    if (!thin.empty()) add_thin(thin, faces);
+    if (only_thin) return;
     std::erase_if(cells, [&](int32_t element) { return element >= numbering_.cells(); });
     if (fields.blank(1)) {
       const auto found = free_faces(numbering_, cells, [](int32_t) { return true; });
@@ -148,6 +157,24 @@ class SurfaceReader {
                                 numbering_.table_of(cell).name));
       }
       faces.emplace_back(cell, f);
+    }
+  }
+
+  void add_thin(const std::vector<const ThinElement*>& thin, std::vector<CellFaceId>& faces) {
+    std::set<FaceCorners> wanted;
+    std::vector<bool> selected(static_cast<size_t>(numbering_.nodes()), false);
+    for (const ThinElement* one : thin) {
+      FaceRows face{
+          {}, static_cast<size_t>(one->count), static_cast<size_t>(traits(*one->face).corners)};
+      std::copy_n(one->nodes.begin(), one->count, face.rows.begin());
+      wanted.insert(sorted_corners(face));
+      for (const int32_t row : face) selected[static_cast<size_t>(row)] = true;
+    }
+    std::vector<Candidate> all;
+    add_neighbours(numbering_, std::vector<bool>(static_cast<size_t>(numbering_.cells()), false),
+                   selected, all);
+    for (const Candidate& one : all) {
+      if (wanted.erase(one.corners) > 0) faces.push_back(one.id);
     }
   }
 

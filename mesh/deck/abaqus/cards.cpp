@@ -1,128 +1,255 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/deck/abaqus/cards.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-using Entry = std::pair<std::string_view, Role>;
-
-// Output, printing and solver controls: no effect on the model.
-constexpr std::array kHarmless = {
-    "CONTACTFILE",
-    "CONTACTOUTPUT",
-    "CONTACTPRINT",
-    "CONTROLS",
-    "DESIGNRESPONSE",
-    "DESIGNVARIABLES",
-    "ELFILE",
-    "ELPRINT",
-    "ELEMENTOUTPUT",
-    "ENERGYFILE",
-    "ENERGYOUTPUT",
-    "ENERGYPRINT",
-    "FACEPRINT",
-    "FILEFORMAT",
-    "FILEOUTPUT",
-    "HEADING",
-    "INTEGRATEDOUTPUT",
-    "MATRIXOUTPUT",
-    "MODALFILE",
-    "MODALOUTPUT",
-    "MODALPRINT",
-    "MONITOR",
-    "NODEFILE",
-    "NODEOUTPUT",
-    "NODEPRINT",
-    "NOANALYSIS",
-    "OUTPUT",
-    "PHYSICALCONSTANTS",
-    "PREPRINT",
-    "PRINT",
-    "RADIATIONFILE",
-    "RESTART",
-    "SECTIONFILE",
-    "SECTIONPRINT",
-    "SUBSTRUCTUREMATRIXOUTPUT",
-    "TIMEPOINTS",
-};
+constexpr const char* kNotLinear = "left out after linear steps, else refused";
+constexpr const char* kOutput = "output";
+constexpr const char* kNonlinear = "of a nonlinear analysis";
+constexpr const char* kContact = "contact, beyond whether it is bonded";
+constexpr const char* kDamping = "damping";
+constexpr const char* kHeat = "of heat transfer";
+constexpr const char* kShells = "of shells";
+constexpr const char* kThin =
+    "of shells and beams, which are surfaces where they are faces of solids";
 
 constexpr std::array kRoles = {
-    Entry{"NODE", Role::kNode},
-    Entry{"ELEMENT", Role::kElement},
-    Entry{"NSET", Role::kSet},
-    Entry{"ELSET", Role::kSet},
-    Entry{"PART", Role::kStructure},
-    Entry{"ENDPART", Role::kStructure},
-    Entry{"ASSEMBLY", Role::kStructure},
-    Entry{"ENDASSEMBLY", Role::kStructure},
-    Entry{"INSTANCE", Role::kStructure},
-    Entry{"ENDINSTANCE", Role::kStructure},
-    Entry{"STEP", Role::kStepBegin},
-    Entry{"ENDSTEP", Role::kStepEnd},
-    Entry{"MATERIAL", Role::kMaterial},
-    Entry{"ELASTIC", Role::kMaterialPart},
-    Entry{"DENSITY", Role::kMaterialPart},
-    Entry{"EXPANSION", Role::kMaterialPart},
-    Entry{"CONDUCTIVITY", Role::kMaterialIdle},
-    Entry{"SPECIFICHEAT", Role::kMaterialIdle},
-    Entry{"COUPLING", Role::kCoupling},
-    Entry{"KINEMATIC", Role::kCouplingPart},
-    Entry{"DISTRIBUTING", Role::kCouplingPart},
-    Entry{"AMPLITUDE", Role::kModel},
-    Entry{"BOUNDARY", Role::kModel},
-    Entry{"DISTRIBUTINGCOUPLING", Role::kModel},
-    Entry{"EQUATION", Role::kModel},
-    Entry{"INITIALCONDITIONS", Role::kModel},
-    Entry{"MASS", Role::kModel},
-    Entry{"MPC", Role::kModel},
-    Entry{"ORIENTATION", Role::kModel},
-    Entry{"PRE-TENSIONSECTION", Role::kModel},
-    Entry{"RETAINEDNODALDOFS", Role::kModel},
-    Entry{"RIGIDBODY", Role::kModel},
-    Entry{"ROTARYINERTIA", Role::kModel},
-    Entry{"SOLIDSECTION", Role::kModel},
-    Entry{"CYCLICSYMMETRYMODEL", Role::kModel},
-    Entry{"DASHPOT", Role::kModel},
-    Entry{"SPRING", Role::kModel},
-    Entry{"SURFACE", Role::kModel},
-    Entry{"TIE", Role::kModel},
-    Entry{"TRANSFORM", Role::kModel},
-    Entry{"CLOAD", Role::kStep},
-    Entry{"DLOAD", Role::kStep},
-    Entry{"DSLOAD", Role::kStep},
-    Entry{"FREQUENCY", Role::kStep},
-    Entry{"MATRIXGENERATE", Role::kStep},
-    Entry{"SELECTCYCLICSYMMETRYMODES", Role::kStep},
-    Entry{"STATIC", Role::kStep},
-    Entry{"SUBSTRUCTUREGENERATE", Role::kStep},
-    Entry{"TEMPERATURE", Role::kStep},
-    Entry{"BUCKLE", Role::kProcedure},
-    Entry{"CHANGESOLIDSECTION", Role::kProcedure},
-    Entry{"COMPLEXFREQUENCY", Role::kProcedure},
-    Entry{"COUPLEDTEMPERATURE-DISPLACEMENT", Role::kProcedure},
-    Entry{"DYNAMIC", Role::kProcedure},
-    Entry{"GREEN", Role::kProcedure},
-    Entry{"HEATTRANSFER", Role::kProcedure},
-    Entry{"MODALDYNAMIC", Role::kProcedure},
-    Entry{"MODELCHANGE", Role::kProcedure},
-    Entry{"SENSITIVITY", Role::kProcedure},
-    Entry{"STEADYSTATEDYNAMICS", Role::kProcedure},
-    Entry{"UNCOUPLEDTEMPERATURE-DISPLACEMENT", Role::kProcedure},
-    Entry{"VISCO", Role::kProcedure},
+    KeywordRole{"NODE", Role::kNode, "nodes"},
+    KeywordRole{"ELEMENT", Role::kElement, "cells and elements of one or two nodes (types below)"},
+    KeywordRole{"NSET", Role::kSet, "node set"},
+    KeywordRole{"ELSET", Role::kSet, "element set"},
+    KeywordRole{"NGEN", Role::kGenerate, "nodes on a line"},
+    KeywordRole{"NFILL", Role::kGenerate, "nodes between two sets"},
+    KeywordRole{"NCOPY", Role::kGenerate, "copies of nodes"},
+    KeywordRole{"ELGEN", Role::kGenerate, "rows of elements"},
+    KeywordRole{"ELCOPY", Role::kGenerate, "copies of elements"},
+    KeywordRole{"SYSTEM", Role::kSystem, "coordinate system of the nodes that follow"},
+    KeywordRole{"PARAMETER", Role::kParameter, "numbers by name"},
+    KeywordRole{"PART", Role::kStructure, "mesh of instances"},
+    KeywordRole{"END PART", Role::kStructure, "end of a part"},
+    KeywordRole{"ASSEMBLY", Role::kStructure, "all instances"},
+    KeywordRole{"END ASSEMBLY", Role::kStructure, "end of the assembly"},
+    KeywordRole{"INSTANCE", Role::kStructure, "a part, moved and turned"},
+    KeywordRole{"END INSTANCE", Role::kStructure, "end of an instance"},
+    KeywordRole{"STEP", Role::kStepBegin, "step"},
+    KeywordRole{"END STEP", Role::kStepEnd, "end of a step"},
+    KeywordRole{"MATERIAL", Role::kMaterial, "material"},
+    KeywordRole{"ELASTIC", Role::kMaterialPart,
+                "isotropic, engineering constants, orthotropic, anisotropic"},
+    KeywordRole{"DENSITY", Role::kMaterialPart, "density"},
+    KeywordRole{"EXPANSION", Role::kMaterialPart, "thermal expansion"},
+    KeywordRole{"DAMPING", Role::kMaterialPart, "alpha and beta, offered to the recipe"},
+    KeywordRole{"ANNEAL TEMPERATURE", Role::kMaterialIdle, kNonlinear},
+    KeywordRole{"CONDUCTIVITY", Role::kMaterialIdle, kHeat},
+    KeywordRole{"CREEP", Role::kMaterialIdle, kNonlinear},
+    KeywordRole{"CYCLIC HARDENING", Role::kMaterialIdle, kNonlinear},
+    KeywordRole{"DAMAGE EVOLUTION", Role::kMaterialIdle, kNonlinear},
+    KeywordRole{"DAMAGE INITIATION", Role::kMaterialIdle, kNonlinear},
+    KeywordRole{"DAMAGE STABILIZATION", Role::kMaterialIdle, kNonlinear},
+    KeywordRole{"DEPVAR", Role::kMaterialIdle, kNonlinear},
+    KeywordRole{"FAIL STRAIN", Role::kMaterialIdle, kNonlinear},
+    KeywordRole{"FAIL STRESS", Role::kMaterialIdle, kNonlinear},
+    KeywordRole{"LATENT HEAT", Role::kMaterialIdle, kHeat},
+    KeywordRole{"PLASTIC", Role::kMaterialIdle, kNonlinear},
+    KeywordRole{"POTENTIAL", Role::kMaterialIdle, kNonlinear},
+    KeywordRole{"RATE DEPENDENT", Role::kMaterialIdle, kNonlinear},
+    KeywordRole{"SPECIFIC HEAT", Role::kMaterialIdle, kHeat},
+    KeywordRole{"TENSILE FAILURE", Role::kMaterialIdle, kNonlinear},
+    KeywordRole{"COUPLING", Role::kCoupling, "coupling of a surface or set to a reference node"},
+    KeywordRole{"KINEMATIC", Role::kCouplingPart, "rigid coupling"},
+    KeywordRole{"DISTRIBUTING", Role::kCouplingPart, "distributing coupling"},
+    KeywordRole{"SURFACE INTERACTION", Role::kInteraction, kContact},
+    KeywordRole{"SURFACE BEHAVIOR", Role::kInteraction, kContact},
+    KeywordRole{"COHESIVE BEHAVIOR", Role::kInteraction, kContact},
+    KeywordRole{"FRICTION", Role::kInteraction, kContact},
+    KeywordRole{"CONTACT", Role::kModel, "ties of bonded surfaces"},
+    KeywordRole{"CONTACT EXCLUSIONS", Role::kModel, "surfaces of a bonded contact"},
+    KeywordRole{"CONTACT INCLUSIONS", Role::kModel, "surfaces of a bonded contact"},
+    KeywordRole{"CONTACT PAIR", Role::kModel, "a tie where it is bonded"},
+    KeywordRole{"CONTACT PROPERTY ASSIGNMENT", Role::kModel, "decides whether a contact is bonded"},
+    KeywordRole{"BEAM GENERAL SECTION", Role::kModel, kThin},
+    KeywordRole{"BEAM SECTION", Role::kModel, kThin},
+    KeywordRole{"MEMBRANE SECTION", Role::kModel, kThin},
+    KeywordRole{"SHELL GENERAL SECTION", Role::kModel, kThin},
+    KeywordRole{"SHELL SECTION", Role::kModel, kThin},
+    KeywordRole{"SURFACE SECTION", Role::kModel, kThin},
+    KeywordRole{"KINEMATIC COUPLING", Role::kModel, "rigid coupling"},
+    KeywordRole{"AMPLITUDE", Role::kModel, "a constant one"},
+    KeywordRole{"BOUNDARY", Role::kModel, "supports, prescribed displacements"},
+    KeywordRole{"DISTRIBUTING COUPLING", Role::kModel, "distributing coupling"},
+    KeywordRole{"EQUATION", Role::kModel, "equation"},
+    KeywordRole{"INITIAL CONDITIONS", Role::kModel, "reference temperature"},
+    KeywordRole{"MASS", Role::kModel, "mass"},
+    KeywordRole{"MPC", Role::kModel,
+                "PIN, TIE, BEAM, PLANE, STRAIGHT, MEANROT to first order in the displacements"},
+    KeywordRole{"ORIENTATION", Role::kModel, "coordinate system of materials"},
+    KeywordRole{"PRE-TENSION SECTION", Role::kModel, "bolt, cut through its shank of solids"},
+    KeywordRole{"RETAINED NODAL DOFS", Role::kModel, "boundary DoFs of a condensation"},
+    KeywordRole{"RIGID BODY", Role::kModel, "rigid coupling"},
+    KeywordRole{"ROTARY INERTIA", Role::kModel, "inertia of a mass"},
+    KeywordRole{"SOLID SECTION", Role::kModel, "region with its material"},
+    KeywordRole{"CYCLIC SYMMETRY MODEL", Role::kModel,
+                "the sector is expanded to the complete ring"},
+    KeywordRole{"DASHPOT", Role::kModel,
+                "left out with a warning: no effect on statics and undamped frequencies"},
+    KeywordRole{"SPRING", Role::kModel, "SPRINGA, SPRING1, SPRING2"},
+    KeywordRole{"SURFACE", Role::kModel, "surface"},
+    KeywordRole{"TIE", Role::kModel, "tie"},
+    KeywordRole{"TRANSFORM", Role::kModel, "coordinate system of nodes"},
+    KeywordRole{"CLOAD", Role::kStep, "force, moment"},
+    KeywordRole{"DLOAD", Role::kStep, "P1 to P6, GRAV, CENTRIF"},
+    KeywordRole{"DSLOAD", Role::kStep, "P: pressure on a surface"},
+    KeywordRole{"FREQUENCY", Role::kStep, "number of modes of a step"},
+    KeywordRole{"MATRIX GENERATE", Role::kStep, "a step without loads"},
+    KeywordRole{"SELECT CYCLIC SYMMETRY MODES", Role::kStep,
+                "reported: the ring has all nodal diameters"},
+    KeywordRole{"STATIC", Role::kStep, "static step"},
+    KeywordRole{"SUBSTRUCTURE GENERATE", Role::kStep, "a step without loads"},
+    KeywordRole{"TEMPERATURE", Role::kStep, "temperatures of nodes"},
+    KeywordRole{"BUCKLE", Role::kProcedure, kNotLinear},
+    KeywordRole{"CHANGE SOLID SECTION", Role::kProcedure, kNotLinear},
+    KeywordRole{"COMPLEX FREQUENCY", Role::kProcedure, kNotLinear},
+    KeywordRole{"COUPLED TEMPERATURE-DISPLACEMENT", Role::kProcedure, kNotLinear},
+    KeywordRole{"DYNAMIC", Role::kProcedure, kNotLinear},
+    KeywordRole{"GREEN", Role::kProcedure, kNotLinear},
+    KeywordRole{"HEAT TRANSFER", Role::kProcedure, kNotLinear},
+    KeywordRole{"MODAL DYNAMIC", Role::kProcedure, kNotLinear},
+    KeywordRole{"MODEL CHANGE", Role::kProcedure, kNotLinear},
+    KeywordRole{"SENSITIVITY", Role::kProcedure, kNotLinear},
+    KeywordRole{"STEADY STATE DYNAMICS", Role::kProcedure, kNotLinear},
+    KeywordRole{"UNCOUPLED TEMPERATURE-DISPLACEMENT", Role::kProcedure, kNotLinear},
+    KeywordRole{"VISCO", Role::kProcedure, kNotLinear},
+    KeywordRole{"BASE MOTION", Role::kHarmless, "of a dynamic step"},
+    KeywordRole{"CHANGE FRICTION", Role::kHarmless, kNonlinear},
+    KeywordRole{"CONTACT CONTROLS", Role::kHarmless, kNonlinear},
+    KeywordRole{"CONTACT DAMPING", Role::kHarmless, kDamping},
+    KeywordRole{"CONTACT FILE", Role::kHarmless, kOutput},
+    KeywordRole{"CONTACT INITIALIZATION ASSIGNMENT", Role::kHarmless, kNonlinear},
+    KeywordRole{"CONTACT INITIALIZATION DATA", Role::kHarmless, kNonlinear},
+    KeywordRole{"CONTACT OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"CONTACT PRINT", Role::kHarmless, kOutput},
+    KeywordRole{"CONTACT STABILIZATION", Role::kHarmless, kNonlinear},
+    KeywordRole{"CONTROLS", Role::kHarmless, "control of the solver"},
+    KeywordRole{"DESIGN RESPONSE", Role::kHarmless, "of a sensitivity"},
+    KeywordRole{"DESIGN VARIABLES", Role::kHarmless, "of a sensitivity"},
+    KeywordRole{"DIAGNOSTICS", Role::kHarmless, kOutput},
+    KeywordRole{"ELEMENT MATRIX OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"ELEMENT OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"EL FILE", Role::kHarmless, kOutput},
+    KeywordRole{"EL PRINT", Role::kHarmless, kOutput},
+    KeywordRole{"ENERGY FILE", Role::kHarmless, kOutput},
+    KeywordRole{"ENERGY OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"ENERGY PRINT", Role::kHarmless, kOutput},
+    KeywordRole{"FACE PRINT", Role::kHarmless, kOutput},
+    KeywordRole{"FILE FORMAT", Role::kHarmless, kOutput},
+    KeywordRole{"FILE OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"FILTER", Role::kHarmless, kOutput},
+    KeywordRole{"GAP CONDUCTANCE", Role::kHarmless, kHeat},
+    KeywordRole{"GAP HEAT GENERATION", Role::kHarmless, kHeat},
+    KeywordRole{"GLOBAL DAMPING", Role::kHarmless, kDamping},
+    KeywordRole{"HEADING", Role::kHarmless, "title"},
+    KeywordRole{"HOURGLASS STIFFNESS", Role::kHarmless, "of reduced integration in Abaqus"},
+    KeywordRole{"INCREMENTATION OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"INTEGRATED OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"MATRIX OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"MODAL DAMPING", Role::kHarmless, kDamping},
+    KeywordRole{"MODAL FILE", Role::kHarmless, kOutput},
+    KeywordRole{"MODAL OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"MODAL PRINT", Role::kHarmless, kOutput},
+    KeywordRole{"MONITOR", Role::kHarmless, kOutput},
+    KeywordRole{"NO ANALYSIS", Role::kHarmless, "control of the run"},
+    KeywordRole{"NODE FILE", Role::kHarmless, kOutput},
+    KeywordRole{"NODE OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"NODE PRINT", Role::kHarmless, kOutput},
+    KeywordRole{"OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"PHYSICAL CONSTANTS", Role::kHarmless, kHeat},
+    KeywordRole{"PREPRINT", Role::kHarmless, kOutput},
+    KeywordRole{"PRINT", Role::kHarmless, kOutput},
+    KeywordRole{"RADIATION FILE", Role::kHarmless, kOutput},
+    KeywordRole{"RESTART", Role::kHarmless, "files of a restart"},
+    KeywordRole{"SECTION CONTROLS", Role::kHarmless, "of reduced integration in Abaqus"},
+    KeywordRole{"SECTION FILE", Role::kHarmless, kOutput},
+    KeywordRole{"SECTION PRINT", Role::kHarmless, kOutput},
+    KeywordRole{"SELECT EIGENMODES", Role::kHarmless, "of modal steps"},
+    KeywordRole{"SOLVER CONTROLS", Role::kHarmless, "control of the solver"},
+    KeywordRole{"SUBSTRUCTURE MATRIX OUTPUT", Role::kHarmless, kOutput},
+    KeywordRole{"SURFACE PROPERTY ASSIGNMENT", Role::kHarmless, kShells},
+    KeywordRole{"TIME POINTS", Role::kHarmless, "of output"},
+    KeywordRole{"TRANSVERSE SHEAR STIFFNESS", Role::kHarmless, kShells},
+    KeywordRole{"USER OUTPUT VARIABLES", Role::kHarmless, kOutput},
 };
+
+// `key` has no blanks.
+bool is(std::string_view key, std::string_view name) {
+  for (const char c : name) {
+    if (c == ' ') continue;
+    if (key.empty() || key.front() != c) return false;
+    key.remove_prefix(1);
+  }
+  return key.empty();
+}
 
 }  // namespace
 
-Role role_of(std::string_view key) {
-  for (const auto& [name, role] : kRoles) {
-    if (name == key) return role;
+std::string advice_of(std::string_view key) {
+  if (role_of(key) == Role::kProcedure) return "";
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kLosses = {
+      {{"CONNECTOR", "its connections: [[spring]] and [[equation]]"},
+       {"FASTENER", "its connections: [[spring]] and [[coupling]]"},
+       {"GAP", "the stiffness of its gaps: [[spring]]"},
+       {"JOINT", "its stiffness: [[spring]]"},
+       {"GASKET", "its stiffness: [[spring]] or [[tie]]"},
+       {"NONSTRUCTURALMASS", "its mass: [[point_mass]]"},
+       {"EMBEDDEDELEMENT", "its connection: [[coupling]] or [[tie]]"},
+       {"SHELLTOSOLIDCOUPLING", "its connection: [[coupling]] or [[tie]]"},
+       {"MATRIX", "its stiffness and mass: [[spring]] and [[point_mass]]"},
+       {"SUBSTRUCTURE", "its stiffness and mass: [[spring]] and [[point_mass]]"},
+       {"USERELEMENT", "its stiffness and mass: [[spring]] and [[point_mass]]"},
+       {"INERTIARELIEF", "its balance of loads: [[support]] of six DoFs"}}};
+  for (const auto& [name, loss] : kLosses) {
+    if (key.starts_with(name)) return fmt::format(" and {} of the recipe replace it", loss);
   }
-  const bool harmless = std::find(kHarmless.begin(), kHarmless.end(), key) != kHarmless.end();
-  return harmless ? Role::kHarmless : Role::kUnknown;
+  return ", and what it adds to stiffness, mass, supports or couplings: [[spring]], "
+         "[[point_mass]], "
+         "[[support]], [[coupling]] of the recipe replace it";
+}
+
+const KeywordRole* row_of(std::string_view key) {
+  const auto at = std::find_if(kRoles.begin(), kRoles.end(),
+                               [&](const KeywordRole& row) { return is(key, row.name); });
+  return at == kRoles.end() ? nullptr : &*at;
+}
+
+Role role_of(std::string_view key) {
+  const KeywordRole* row = row_of(key);
+  return row == nullptr ? Role::kUnknown : row->role;
+}
+
+Fate fate_of(Role role) {
+  switch (role) {
+    case Role::kUnknown:
+    case Role::kProcedure:
+      return Fate::kRefused;
+    case Role::kHarmless:
+    case Role::kInteraction:
+    case Role::kMaterialIdle:
+      return Fate::kPassed;
+    default:
+      return Fate::kRead;
+  }
+}
+
+std::vector<Listed> listed_keywords() {
+  std::vector<Listed> rows;
+  for (const KeywordRole& row : kRoles)
+    rows.push_back({"*" + std::string(row.name), fate_of(row.role), std::string(row.meaning)});
+  return rows;
 }
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <string>
+#include <utility>
 
 #include "mesh/deck/field_text.hpp"
 
@@ -12,17 +12,28 @@ namespace clatter::mesh::deck::abaqus {
 namespace {
 
 constexpr std::array kSolids = {
-    SolidType{"C3D4", CellType::kTet4, Formulation::kDefault},
-    SolidType{"C3D5", CellType::kPyramid5, Formulation::kDefault},
-    SolidType{"C3D6", CellType::kWedge6, Formulation::kReduced},
-    SolidType{"C3D8", CellType::kHex8, Formulation::kFull},
-    SolidType{"C3D8I", CellType::kHex8, Formulation::kIncompatible},
-    SolidType{"C3D8R", CellType::kHex8, Formulation::kReduced},
-    SolidType{"C3D10", CellType::kTet10, Formulation::kDefault},
-    SolidType{"C3D15", CellType::kWedge15, Formulation::kReduced},
-    SolidType{"C3D20", CellType::kHex20, Formulation::kFull},
-    SolidType{"C3D20R", CellType::kHex20, Formulation::kReduced},
+    SolidType{"C3D4", CellType::kTet4, Formulation::kDefault, ""},
+    SolidType{"C3D5", CellType::kPyramid5, Formulation::kDefault, ""},
+    SolidType{"C3D6", CellType::kWedge6, Formulation::kReduced, ""},
+    SolidType{"C3D8", CellType::kHex8, Formulation::kFull, ""},
+    SolidType{"C3D8I", CellType::kHex8, Formulation::kIncompatible, ""},
+    SolidType{"C3D8R", CellType::kHex8, Formulation::kReduced, ""},
+    SolidType{"C3D10", CellType::kTet10, Formulation::kDefault, ""},
+    SolidType{"C3D15", CellType::kWedge15, Formulation::kReduced, ""},
+    SolidType{"C3D20", CellType::kHex20, Formulation::kFull, ""},
+    SolidType{"C3D20R", CellType::kHex20, Formulation::kReduced, ""},
 };
+
+// Letters of variants that are read as the type without them.
+constexpr std::array<std::pair<char, std::string_view>, 4> kVariants = {
+    {{'H', "the pressure as an unknown of its own"},
+     {'M', "the modified interpolation"},
+     {'S', "improved stress at the surface"},
+     {'T', "temperatures as unknowns"}}};
+
+// Families of two-dimensional elements; the number of nodes follows.
+constexpr std::array<std::string_view, 8> kThinFamilies = {"CPS",  "CPE", "SFM3D", "M3D",
+                                                           "STRI", "R3D", "DS",    "S"};
 
 // Corners of the faces by number, as bit masks.
 constexpr unsigned bits(int a, int b, int c, int d = -1) {
@@ -61,12 +72,56 @@ unsigned corners_of(CellType type, size_t face) {
 
 }  // namespace
 
+std::span<const SolidType> solid_types() { return kSolids; }
+
 std::optional<SolidType> solid_type(std::string_view name) {
-  const std::string key = folded(name);
+  std::string key = folded(name);
   for (const SolidType& solid : kSolids) {
     if (solid.name == key) return solid;
   }
+  std::string_view variant;
+  for (const auto& [letter, meaning] : kVariants) {
+    const size_t at = key.starts_with("C3D") ? key.find_first_not_of("0123456789", 3) : key.npos;
+    const size_t letters = at == key.npos ? key.npos : key.find(letter, at);
+    if (letters == key.npos) continue;
+    key.erase(letters, 1);
+    if (variant.empty()) variant = meaning;
+  }
+  if (key == "C3D10I") key = "C3D10", variant = "improved stress at the surface";
+  for (SolidType solid : kSolids) {
+    if (solid.name != key || variant.empty()) continue;
+    solid.variant = variant;
+    return solid;
+  }
   return std::nullopt;
+}
+
+std::optional<FaceType> thin_type(std::string_view name) {
+  const std::string key = folded(name);
+  for (const std::string_view family : kThinFamilies) {
+    if (!key.starts_with(family) || key.size() == family.size()) continue;
+    const std::string_view rest = std::string_view(key).substr(family.size());
+    if (family == "STRI" && rest.starts_with("65")) return FaceType::kTri6;
+    switch (rest.front()) {
+      case '3':
+        return FaceType::kTri3;
+      case '4':
+        return FaceType::kQuad4;
+      case '6':
+        return FaceType::kTri6;
+      case '8':
+        return FaceType::kQuad8;
+      default:
+        break;
+    }
+  }
+  return std::nullopt;
+}
+
+int line_nodes(std::string_view name) {
+  const std::string key = folded(name);
+  if (key.starts_with("T3D2") || key.starts_with("B31") || key.starts_with("B33")) return 2;
+  return key.starts_with("T3D3") || key.starts_with("B32") ? 3 : 0;
 }
 
 int face_of_number(CellType type, int number) {

@@ -2,6 +2,7 @@
 #pragma once
 // Element types and their face numbers.
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "core/mesh/cell.hpp"
@@ -10,15 +11,26 @@
 namespace clatter::mesh::deck::abaqus {
 
 /// A solid element type. C3D8 and C3D20 are fully integrated, C3D8I has incompatible modes, R means
-/// reduced integration; C3D6 and C3D15 have the two and nine points of reduced wedges.
+/// reduced integration; C3D6 and C3D15 have the two and nine points of reduced wedges. Variants
+/// without a counterpart of their own (H hybrid, M modified, S stress at the surface, T with
+/// temperatures, C3D10I) are read as the type without these letters.
 struct SolidType {
   std::string_view name;
   CellType type;
   Formulation formulation;
+  std::string_view variant;  // what the nearest counterpart leaves out; empty: nothing
 };
 
+/// All that are supported.
+std::span<const SolidType> solid_types();
 /// By folded name; none for types that are not supported solids.
 std::optional<SolidType> solid_type(std::string_view name);
+
+/// The face that a two-dimensional element is (CPS6, S3, STRI65, M3D4R, SFM3D8), by folded name;
+/// none for other types.
+std::optional<FaceType> thin_type(std::string_view name);
+/// Nodes of a one-dimensional element (T3D2, B31), 2 or 3; 0 for other types.
+int line_nodes(std::string_view name);
 
 /// Index into traits(type).faces of face `number` (1 for S1, P1); -1 where the cell has no such
 /// face.

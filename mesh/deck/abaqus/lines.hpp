@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "mesh/deck/abaqus/card.hpp"
+#include "mesh/deck/abaqus/parameters.hpp"
 #include "mesh/deck/abaqus/source.hpp"
 
 namespace clatter::mesh::deck::abaqus {
@@ -30,12 +31,16 @@ class Lines {
   bool marked_end() const { return marked_end_; }
   Origin origin() const { return source_.origin(); }
   const Source& source() const { return source_; }
+  /// Values of <name> in the lines that follow.
+  Parameters& parameters() { return parameters_; }
 
  private:
   bool next_line();
   void read_keyword();
 
   Source& source_;
+  Parameters parameters_;
+  std::string replaced_;  // holds data_ if <name> was replaced
   Keyword keyword_;
   std::string_view data_;
   bool held_ = false;  // data_ is the next line

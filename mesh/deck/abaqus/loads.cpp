@@ -32,7 +32,8 @@ bool is_new(const Card& card) { return card.keyword().choice("OP", "MOD") == "NE
 }  // namespace
 
 double Loads::begin(const Card& card) {
-  card.keyword().allow({"OP", "AMPLITUDE"}, model_->source, model_->ignore);
+  card.keyword().allow({"OP", "AMPLITUDE", "FOLLOWER", "CONSTANTRESULTANT", "REGIONTYPE"},
+                       model_->source, model_->ignore);
   return model_->ignore.lists("AMPLITUDE") ? 1.0 : amplitude_factor(*model_, card);
 }
 
@@ -85,7 +86,12 @@ void Loads::read_element_load(size_t use, const Fields& fields, double factor, S
   fields.at_most(3, "elements, face, pressure");
   const double value = factor * fields.number(2, "pressure");
   for (const int32_t element : model_->sets.elements_at(fields, 0, use)) {
-    if (element >= model_->numbering.cells()) fields.fail("found a pressure on a point");
+    if (element >= model_->numbering.cells()) {
+      fields.fail(
+          fmt::format("found a pressure on {}, which has elements that are no solids; "
+                      "*DSLOAD on a surface of their faces loads the solids",
+                      fields.text(0)));
+    }
     const FlatTable& table = model_->numbering.table_of(element);
     const int32_t face = face_of_number(table.type, *number);
     if (face < 0) {
@@ -113,7 +119,7 @@ void Loads::add_rotation(size_t use, const Fields& fields, double factor, StepNu
   rotation.step = step;
   rotation.origin = fields.origin();
   rotation.covered.resize(static_cast<size_t>(model_->numbering.cells()), false);
-  for (const int32_t element : model_->sets.elements_at(fields, 0, use)) {
+  for (const int32_t element : model_->sets.elements_or_all(fields, 0, use)) {
     if (element < model_->numbering.cells()) rotation.covered[static_cast<size_t>(element)] = true;
   }
   // Replaces the value of an earlier step on the same elements.
@@ -137,7 +143,7 @@ void Loads::add_gravity(size_t use, const Fields& fields, double factor, StepNum
   gravity.covered.resize(static_cast<size_t>(model_->numbering.cells()), false);
   gravity.step = step;
   gravity.origin = fields.origin();
-  for (const int32_t element : model_->sets.elements_at(fields, 0, use)) {
+  for (const int32_t element : model_->sets.elements_or_all(fields, 0, use)) {
     if (element < model_->numbering.cells()) gravity.covered[static_cast<size_t>(element)] = true;
   }
   // Ends gravity of an earlier step on these elements: there is one field for all of them.

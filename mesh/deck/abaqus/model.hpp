@@ -68,6 +68,9 @@ void build_systems(Model& model);
 void build_mesh(Model& model);
 /// *SOLID SECTION -> regions of the mesh and of the deck, Model::region_of_cell.
 void build_regions(Model& model);
+/// Elements of two dimensions that are faces of solids -> Mesh::surfaces, lines of their nodes ->
+/// node sets; others with a section are refused.
+void build_thin(Model& model);
 /// *PRE-TENSION SECTION, before cells are copied: the cut's nodes get copies on one side.
 void cut_bolts(Model& model);
 /// The same cards, after build_surfaces() -> Deck::bolts.
@@ -88,6 +91,8 @@ void build_couplings(Model& model);
 void build_distributing(Model& model);
 /// *TIE.
 void build_ties(Model& model);
+/// Bonded *CONTACT PAIR and general contact -> Deck::ties; other contact is refused.
+void build_contacts(Model& model);
 /// *MASS, *ROTARY INERTIA with their elements.
 void build_masses(Model& model);
 /// The elements of a card's ELSET; InputError for cells and for types that do not begin with

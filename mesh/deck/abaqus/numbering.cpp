@@ -73,6 +73,10 @@ void Numbering::index_scope(const Scope& scope) {
     ids.push_back(point.id);
     origins.push_back(point.origin);
   }
+  for (const ThinElement& thin : scope.thin) {
+    ids.push_back(thin.id);
+    origins.push_back(thin.origin);
+  }
   ids.insert(ids.end(), scope.ignored_elements.begin(), scope.ignored_elements.end());
   element_index_.emplace_back(ids);
   const auto known = static_cast<int32_t>(origins.size());
@@ -93,8 +97,8 @@ void Numbering::add_use(Scope& scope, const InstanceLine* line, int32_t index) {
   use.index = index;
   if (line != nullptr) {
     use.name = line->name;
-    use.shift = line->shift;
-    use.rotation = line->rotation;
+    use.shift = line->placement.shift;
+    use.rotation = line->placement.rotation;
   }
   add_nodes(scope, use);
   add_cells(scope, use);
@@ -138,6 +142,7 @@ void Numbering::add_cells(Scope& scope, Use& use) {
   use.first_table = static_cast<int32_t>(tables_.size());
   use.first_cell = cells_;
   use.first_point = static_cast<int32_t>(points_.size());
+  use.first_thin = static_cast<int32_t>(thin_.size());
   int32_t low = std::numeric_limits<int32_t>::max(), high = 0;
   int64_t count = 0;
   for (const CellTable& table : scope.cells) {
@@ -172,6 +177,12 @@ void Numbering::add_cells(Scope& scope, Use& use) {
     point.node = row_of(use, point.node, point.origin);
     point.second = point.second == 0 ? -1 : row_of(use, point.second, point.origin);
     points_.push_back(point);
+  }
+  for (ThinElement thin : scope.thin) {
+    for (size_t i = 0; i < static_cast<size_t>(thin.count); ++i) {
+      thin.nodes[i] = row_of(use, thin.nodes[i], thin.origin);
+    }
+    thin_.push_back(std::move(thin));
   }
 }
 
@@ -212,8 +223,32 @@ int32_t Numbering::element_at(const Use& use, int32_t local) const {
   if (local < 0) return -1;
   if (local < use.cells) return use.first_cell + local;
   const int32_t point = local - use.cells;
-  if (point >= static_cast<int32_t>(use.scope->points.size())) return kIgnored;
-  return cells_ + use.first_point + point;
+  const auto n_points = static_cast<int32_t>(use.scope->points.size());
+  if (point < n_points) return cells_ + use.first_point + point;
+  const int32_t thin = point - n_points;
+  if (thin >= static_cast<int32_t>(use.scope->thin.size())) return kIgnored;
+  return first_thin() + use.first_thin + thin;
+}
+
+const PointElement* Numbering::point(int32_t element) const {
+  if (element < cells_ || element >= first_thin()) return nullptr;
+  return &points_[static_cast<size_t>(element - cells_)];
+}
+
+const ThinElement* Numbering::thin(int32_t element) const {
+  if (element < first_thin() || element >= elements()) return nullptr;
+  return &thin_[static_cast<size_t>(element - first_thin())];
+}
+
+std::vector<int32_t> Numbering::rows_of(int32_t element) const {
+  if (const PointElement* one = point(element)) {
+    return one->second < 0 ? std::vector{one->node} : std::vector{one->node, one->second};
+  }
+  if (const ThinElement* one = thin(element)) {
+    return {one->nodes.begin(), one->nodes.begin() + one->count};
+  }
+  const auto rows = nodes_of(element);
+  return {rows.begin(), rows.end()};
 }
 
 int32_t Numbering::find_element(size_t use, int32_t id) const {

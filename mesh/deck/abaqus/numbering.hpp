@@ -15,7 +15,7 @@
 namespace clatter::mesh::deck::abaqus {
 
 /// One use of a scope. Its elements are numbered: cells in the order of its tables, then points,
-/// then those that the user ignores.
+/// then thin ones, then those that the user ignores.
 struct Use {
   const Scope* scope = nullptr;
   std::string name;  // of the instance; empty: the flat deck or the assembly
@@ -23,6 +23,7 @@ struct Use {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   int32_t index = 0;  // of node_index_ and element_index_
   int32_t first_node = 0, first_table = 0, first_cell = 0, first_point = 0;
+  int32_t first_thin = 0;
   int32_t node_offset = 0, element_offset = 0;  // added to the deck's numbers
   int32_t cells = 0;                            // of this use
 };
@@ -57,6 +58,8 @@ class Numbering {
 
   int32_t nodes() const { return static_cast<int32_t>(node_ids_.size()); }
   const std::vector<int32_t>& node_ids() const { return node_ids_; }
+  int32_t highest_node() const { return highest_node_; }
+  int32_t highest_element() const { return highest_element_; }
   const std::vector<double>& coordinates() const { return xyz_; }
   Eigen::Vector3d at(int32_t row) const { return Eigen::Vector3d(xyz_.data() + 3 * int64_t{row}); }
   /// Row of node `id` of a use; -1 if there is none.
@@ -71,7 +74,19 @@ class Numbering {
   /// Elements of one node or two; `node` is a row, and `second`, or -1. Their numbers follow those
   /// of the cells.
   const std::vector<PointElement>& points() const { return points_; }
-  /// Element `id` of a use: a cell, cells() + a point, kIgnored for an ignored one, or -1.
+  /// The point or thin element with that number among all elements; null for others.
+  const PointElement* point(int32_t element) const;
+  const ThinElement* thin(int32_t element) const;
+  /// Their nodes are rows.
+  const std::vector<ThinElement>& thin() const { return thin_; }
+  /// The number of thin element 0 among all.
+  int32_t first_thin() const { return cells_ + static_cast<int32_t>(points_.size()); }
+  /// Of cells, points and thin ones.
+  int32_t elements() const { return first_thin() + static_cast<int32_t>(thin_.size()); }
+  /// Rows of the nodes of any element.
+  std::vector<int32_t> rows_of(int32_t element) const;
+  /// Element `id` of a use: a cell, cells() + a point, first_thin() + a thin one, kIgnored for an
+  /// ignored one, or -1.
   int32_t find_element(size_t use, int32_t id) const;
   /// Without those that the user ignores.
   std::vector<int32_t> find_elements(size_t use, const IdRange& range) const;
@@ -94,6 +109,7 @@ class Numbering {
   std::vector<double> xyz_;
   std::vector<FlatTable> tables_;
   std::vector<PointElement> points_;
+  std::vector<ThinElement> thin_;
   int32_t cells_ = 0;
   int32_t highest_node_ = 0, highest_element_ = 0;
 };

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
-#include <numbers>
+#include <algorithm>
 
 #include "mesh/deck/abaqus/cards.hpp"
+#include "mesh/deck/abaqus/generate.hpp"
 #include "mesh/deck/abaqus/read_cells.hpp"
 
 namespace clatter::mesh::deck::abaqus {
@@ -56,6 +56,7 @@ class Parser {
     }
     refusals_.attempt([&] { check_end(); });
     if (incomplete_) refusals_.raise();
+    for (const auto& [type, note] : variants_) deck_.notes.push_back(note);
     return std::move(deck_);
   }
 
@@ -77,7 +78,9 @@ class Parser {
   // A deck truncated at the end of a line has open blocks.
   void check_end() {
     if (scope_ != &deck_.model) {
-      source_.fail(scope_->origin, "found *PART without *END PART, the deck ends before it");
+      source_.fail(scope_->origin,
+                   fmt::format("found *{0} without *END {0}, the deck ends before it",
+                               in_instance_ ? "INSTANCE" : "PART"));
     }
     if (assembly_ >= 0) {
       source_.fail(assembly_, "found *ASSEMBLY without *END ASSEMBLY, the deck ends before it");
@@ -127,31 +130,37 @@ class Parser {
 
   Lines::Kind read_keyword() {
     const Keyword& keyword = lines_.keyword();
-    if (ignore_.skips(keyword.name)) return skip_data();
+    const bool ignored = ignore_.skips(keyword.name);
     const Role role = role_of(keyword.key);
-    if (left_out_ && step_ >= 0) return read_left_out(role);
     const bool frozen = keyword.key == "BOUNDARY" && keyword.has("FIXED");
-    if ((role == Role::kProcedure || frozen) && step_ >= 0 && steps_before_ > 0) {
-      return begin_left_out(keyword);
-    }
+    const bool last = (role == Role::kProcedure || frozen) && steps_before_ > 0;
+    const bool left_out = step_ >= 0 && (left_out_ || last);
+    record(keyword, ignored, left_out);
+    if (ignored) return skip_data();
+    if (left_out) return left_out_ ? read_left_out(role) : begin_left_out(keyword);
     check_context(keyword, role);
     if (role == Role::kMaterial) parent_ = Role::kMaterial;
     if (role == Role::kCoupling) parent_ = Role::kCoupling;
     switch (role) {
       case Role::kUnknown:
       case Role::kProcedure:
-        refusals_.add(
-            fmt::format("{}: keyword {} is not supported; ignore = [\"{}\"] skips it "
-                        "with its data lines",
-                        source_.where(keyword.origin), keyword.name, keyword.name));
+        refusals_.add(fmt::format(
+            "{}: keyword {} is not supported; ignore = [\"{}\"] skips it "
+            "with its data lines{}",
+            source_.where(keyword.origin), keyword.name, keyword.name, advice_of(keyword.key)));
         return skip_data();
       case Role::kHarmless:
       case Role::kMaterialIdle:
         return skip_data();
       case Role::kNode:
-        return read_nodes(lines_, *scope_, ignore_);
+        return read_nodes(lines_, *scope_, system_, ignore_);
       case Role::kElement:
-        return read_elements(lines_, *scope_, ignore_, refusals_);
+        return read_elements(lines_, *scope_, ignore_, refusals_, variants_);
+      case Role::kParameter:
+        return read_parameters();
+      case Role::kSystem:
+      case Role::kGenerate:
+        return generate_rows();
       case Role::kSet:
         return read_set();
       case Role::kStructure:
@@ -172,6 +181,18 @@ class Parser {
         if (keyword.key == "STATIC" || keyword.key == "FREQUENCY") ++linear_steps_;
         return read_card();
     }
+  }
+
+  void record(const Keyword& keyword, bool ignored, bool left_out) {
+    Content& content = refusals_.contents().count("keyword", keyword.name, source_, keyword.origin);
+    if (content.count > 1) return;
+    const KeywordRole* row = row_of(keyword.key);
+    content.fate = row == nullptr ? Fate::kRefused : fate_of(row->role);
+    if (row != nullptr) content.meaning = row->meaning;
+    if (ignored) content.fate = Fate::kIgnored;
+    if (!left_out) return;
+    content.fate = Fate::kPassed;
+    content.meaning = "in a step that is left out";
   }
 
   // Drops the open step and those that follow from it.
@@ -199,11 +220,12 @@ class Parser {
     const bool coupling = role == Role::kCouplingPart;
     if (material && parent_ != Role::kMaterial) misplaced(keyword, "after *MATERIAL");
     if (coupling && parent_ != Role::kCoupling) misplaced(keyword, "after *COUPLING");
-    if (!material && !coupling) parent_ = Role::kUnknown;
+    const bool anywhere = role == Role::kHarmless || role == Role::kInteraction;
+    if (!material && !coupling && !anywhere) parent_ = Role::kUnknown;
     const bool inside = role == Role::kStep || role == Role::kStepEnd;
     if (inside && step_ < 0) misplaced(keyword, "inside a step");
     if ((role == Role::kStepBegin || role == Role::kStructure || role == Role::kElement ||
-         role == Role::kNode) &&
+         role == Role::kNode || role == Role::kGenerate) &&
         step_ >= 0) {
       misplaced(keyword, "outside of steps");
     }
@@ -229,6 +251,34 @@ class Parser {
     return kind;
   }
 
+  Lines::Kind read_parameters() {
+    const Keyword keyword = lines_.keyword();
+    keyword.allow({}, source_, ignore_);
+    Lines::Kind kind = lines_.next();
+    for (; kind == Lines::Kind::kData; kind = lines_.next()) {
+      lines_.parameters().define(lines_.data(), source_, lines_.origin());
+    }
+    return kind;
+  }
+
+  // *SYSTEM and the keywords that make nodes and elements from those before.
+  Lines::Kind generate_rows() {
+    Card card(lines_.keyword());
+    Lines::Kind kind = lines_.next();
+    for (; kind == Lines::Kind::kData; kind = lines_.next())
+      card.add(lines_.data(), lines_.origin());
+    if (incomplete_) return kind;  // tables have gaps
+    const bool done = refusals_.attempt([&] {
+      if (card.keyword().key == "SYSTEM") {
+        system_ = local_system(card, source_);
+      } else {
+        generate(card, *scope_, system_, source_, ignore_);
+      }
+    });
+    incomplete_ = incomplete_ || !done;
+    return kind;
+  }
+
   Lines::Kind read_set() {
     const Keyword keyword = lines_.keyword();
     const bool of_nodes = keyword.key == "NSET";
@@ -236,8 +286,9 @@ class Parser {
                    of_nodes ? "ELSET" : "ELSET"},
                   source_, ignore_);
     IdSets& sets = of_nodes ? scope_->node_sets : scope_->element_sets;
-    SetChunk& chunk =
-        new_chunk(sets, keyword.required(of_nodes ? "NSET" : "ELSET", source_), keyword.origin);
+    const std::string& name = keyword.required(of_nodes ? "NSET" : "ELSET", source_);
+    SetChunk& chunk = new_chunk(sets, name, keyword.origin);
+    if (keyword.has("UNSORTED")) sets[folded(name)].unsorted = true;
     if (const std::string* instance = keyword.find("INSTANCE")) chunk.instance = *instance;
     if (of_nodes && keyword.has("ELSET")) {
       chunk.elements_of.push_back(keyword.required("ELSET", source_));
@@ -261,19 +312,14 @@ class Parser {
     const Keyword keyword = lines_.keyword();
     if (keyword.key == "PART") {
       begin_part(keyword);
-    } else if (keyword.key == "ENDPART") {
-      if (scope_ == &deck_.model) misplaced(keyword, "after *PART");
-      deck_.parts.push_back(std::move(part_));
-      scope_ = &deck_.model;
+    } else if (keyword.key == "ENDPART" || keyword.key == "ENDINSTANCE") {
+      end_part(keyword, keyword.key == "ENDINSTANCE");
     } else if (keyword.key == "INSTANCE") {
       return read_instance(keyword);
     } else if (keyword.key == "ASSEMBLY") {
       assembly_ = keyword.origin;
     } else if (keyword.key == "ENDASSEMBLY") {
       assembly_ = -1;
-    } else if (keyword.key == "ENDINSTANCE") {
-      if (refusals_.any()) throw FollowUp();
-      misplaced(keyword, "after *INSTANCE");
     }
     return no_data(keyword);
   }
@@ -290,6 +336,7 @@ class Parser {
       }
     }
     scope_ = &part_;
+    system_ = LocalSystem();
   }
 
   Lines::Kind no_data(const Keyword& keyword) {
@@ -301,7 +348,8 @@ class Parser {
     return kind;
   }
 
-  // Translation in the first line; two points of an axis and an angle in degrees in the second.
+  // Its placement; then *END INSTANCE, or keywords that belong to this instance alone: a mesh on
+  // the instance, as Abaqus/CAE writes it, or additions to its part.
   Lines::Kind read_instance(const Keyword& keyword) {
     if (scope_ != &deck_.model) misplaced(keyword, "outside of parts");
     keyword.allow({"NAME", "PART"}, source_, ignore_);
@@ -311,35 +359,45 @@ class Parser {
     instance.origin = keyword.origin;
     Lines::Kind kind = lines_.next();
     for (int line = 0; kind == Lines::Kind::kData; kind = lines_.next(), ++line) {
-      set_position(Fields(lines_.data(), source_, lines_.origin()), line, instance);
+      instance.placement.read(Fields(lines_.data(), source_, lines_.origin()), line);
     }
-    if (kind == Lines::Kind::kEnd || lines_.keyword().key != "ENDINSTANCE") {
-      source_.fail(keyword.origin,
-                   "expected *END INSTANCE after the lines of *INSTANCE: additions "
-                   "of an instance to its part are not supported");
+    if (kind == Lines::Kind::kKeyword && lines_.keyword().key != "ENDINSTANCE") {
+      begin_additions(instance);
+      return kind;
+    }
+    if (kind == Lines::Kind::kEnd) {
+      source_.fail(keyword.origin, "found *INSTANCE without *END INSTANCE");
     }
     deck_.instances.push_back(instance);
     return no_data(lines_.keyword());
   }
 
-  static void set_position(const Fields& fields, int line, InstanceLine& instance) {
-    if (line == 0) {
-      fields.at_most(3, "translation of an instance");
-      for (int k = 0; k < 3; ++k) instance.shift[k] = fields.number_or(k, "translation", 0.0);
-      return;
+  // The instance gets a copy of its part for itself.
+  void begin_additions(InstanceLine& instance) {
+    const auto part = std::find_if(deck_.parts.begin(), deck_.parts.end(), [&](const Scope& one) {
+      return folded(one.name) == folded(instance.part);
+    });
+    if (part == deck_.parts.end()) {
+      source_.fail(instance.origin, fmt::format("found no part {}", shown(instance.part)));
     }
-    if (line > 1) fields.fail("expected at most two lines of an instance");
-    fields.at_most(7, "axis and angle of an instance");
-    Eigen::Vector3d a, b;
-    for (int k = 0; k < 3; ++k) {
-      a[k] = fields.number(k, "first point of the axis");
-      b[k] = fields.number(3 + k, "second point of the axis");
+    part_ = *part;
+    part_.name = instance.part = fmt::format("{} of instance {}", part->name, instance.name);
+    part_.origin = instance.origin;
+    scope_ = &part_;
+    system_ = LocalSystem();
+    deck_.instances.push_back(instance);
+    in_instance_ = true;
+  }
+
+  void end_part(const Keyword& keyword, bool of_instance) {
+    if (scope_ == &deck_.model || in_instance_ != of_instance) {
+      if (refusals_.any()) throw FollowUp();
+      misplaced(keyword, of_instance ? "after *INSTANCE" : "after *PART");
     }
-    const double length = (b - a).norm();
-    if (!(length > 0.0)) fields.fail("expected two different points of the axis");
-    const double angle = fields.number(6, "angle in degrees") * std::numbers::pi / 180.0;
-    instance.rotation = Eigen::AngleAxisd(angle, (b - a) / length).toRotationMatrix();
-    instance.shift = instance.rotation * (instance.shift - a) + a;
+    deck_.parts.push_back(std::move(part_));
+    scope_ = &deck_.model;
+    system_ = LocalSystem();
+    in_instance_ = false;
   }
 
   Lines lines_;
@@ -355,7 +413,10 @@ class Parser {
   RawDeck deck_;
   Scope part_;
   Scope* scope_ = &deck_.model;
-  Origin step_ = -1;  // of the open step
+  bool in_instance_ = false;                     // part_ is the copy of an instance
+  LocalSystem system_;                           // of *SYSTEM
+  std::map<std::string, std::string> variants_;  // by element type: read as another one
+  Origin step_ = -1;                             // of the open step
   Role parent_ = Role::kUnknown;
 };
 

@@ -2,14 +2,16 @@
 #pragma once
 // The content of a deck: tables of nodes and elements, sets, and the other keywords as cards. A
 // flat deck is one scope; a deck of parts has one scope per part and one for the assembly.
-#include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "mesh/deck/abaqus/card.hpp"
+#include "mesh/deck/abaqus/placement.hpp"
 #include "mesh/deck/deck.hpp"
 #include "mesh/deck/id_index.hpp"
 
@@ -41,6 +43,16 @@ struct PointElement {
   Origin origin = 0;
 };
 
+/// An element of two dimensions (CPS6, S3) or one (T3D2, B31) beside the solids.
+struct ThinElement {
+  std::string type;
+  std::optional<FaceType> face;  // none for one dimension
+  int32_t id = 0;
+  Origin origin = 0;
+  int32_t count = 0;                           // of its nodes
+  std::array<int32_t, kMaxFaceNodes> nodes{};  // numbers in the deck, corners first
+};
+
 /// The part of a set from one keyword.
 struct SetChunk {
   Origin origin = 0;
@@ -55,7 +67,8 @@ struct SetChunk {
 };
 
 struct IdSet {
-  std::string name;  // as first written
+  std::string name;       // as first written
+  bool unsorted = false;  // its order counts where sets are paired (*EQUATION, *MPC)
   std::vector<SetChunk> chunks;
 };
 
@@ -68,17 +81,17 @@ struct Scope {
   NodeTable nodes;
   std::vector<CellTable> cells;
   std::vector<PointElement> points;
+  std::vector<ThinElement> thin;
   std::vector<int32_t> ignored_elements;  // numbers of elements that the user ignores
   IdSets node_sets, element_sets;
   std::vector<Card> cards;
 };
 
-/// A positioned part: x -> rotation * x + shift.
+/// A positioned part.
 struct InstanceLine {
   std::string name, part;
   Origin origin = 0;
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Placement placement;
 };
 
 struct RawDeck {

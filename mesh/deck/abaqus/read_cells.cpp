@@ -39,21 +39,25 @@ int32_t id_of(std::string_view field, const Lines& lines, std::string_view what)
   return *id;
 }
 
-void read_node(const Lines& lines, NodeTable& nodes) {
+void read_node(const Lines& lines, const LocalSystem& system, char kind, NodeTable& nodes) {
   FieldWalk walk(lines.data());
   std::string_view field;
   walk.next(&field);
   nodes.ids.push_back(id_of(field, lines, "the number of a node"));
   nodes.origins.push_back(lines.origin());
-  for (int k = 0; k < 3; ++k) {
-    std::optional<double> x = 0.0;
-    if (walk.next(&field) && !field.empty()) x = to_number(field);
-    if (!x) {
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  for (double& x : at) {
+    if (!walk.next(&field)) break;
+    if (field.empty()) continue;
+    const auto number = to_number(field);
+    if (!number) {
       lines.source().fail(lines.origin(),
                           fmt::format("found {}, expected a coordinate", shown(field)));
     }
-    nodes.xyz.push_back(*x);
+    x = *number;
   }
+  if (kind != 'R' || !system.is_global()) at = system.global(cartesian(kind, at));
+  nodes.xyz.insert(nodes.xyz.end(), at.begin(), at.end());
 }
 
 CellTable& table_of(Scope& scope, const SolidType& solid) {
@@ -158,6 +162,24 @@ Lines::Kind read_points(Lines& lines, const std::string& type, Scope& scope, Set
           });
 }
 
+Lines::Kind read_thin(Lines& lines, const std::string& type, Scope& scope, SetChunk* chunk,
+                      Ignore& ignore) {
+  const auto face = thin_type(type);
+  const int nodes = face ? traits(*face).nodes : line_nodes(type);
+  return ElementWalk(lines, type, nodes, ignore)
+      .run(
+          [&](int32_t id, Origin origin) {
+            scope.thin.push_back({type, face, id, origin, 0, {}});
+            if (chunk == nullptr) return;
+            chunk->id_lines.emplace_back(chunk->ids.size(), origin);
+            chunk->ids.push_back(id);
+          },
+          [&](int32_t node) {
+            ThinElement& thin = scope.thin.back();
+            thin.nodes[static_cast<size_t>(thin.count++)] = node;
+          });
+}
+
 // Only the numbers are kept: sets may name them. A trailing comma continues the line.
 Lines::Kind skip_elements(Lines& lines, const std::string& type, Scope& scope, Ignore& ignore) {
   bool goes_on = false;
@@ -181,19 +203,53 @@ Lines::Kind skip_elements(Lines& lines, const std::string& type, Scope& scope, I
   return kind;
 }
 
+const char* integration(Formulation formulation) {
+  switch (formulation) {
+    case Formulation::kFull:
+    case Formulation::kFine:
+      return ", full integration";
+    case Formulation::kReduced:
+      return ", reduced integration";
+    case Formulation::kIncompatible:
+      return ", incompatible modes";
+    case Formulation::kDefault:
+      return "";
+  }
+  return "";
+}
+
+int64_t elements_in(const Scope& scope) {
+  size_t count = scope.points.size() + scope.thin.size() + scope.ignored_elements.size();
+  for (const CellTable& table : scope.cells) count += table.ids.size();
+  return static_cast<int64_t>(count);
+}
+
+Fate fate_of_type(const std::string& type, const Ignore& ignore) {
+  if (ignore.lists(type)) return Fate::kIgnored;
+  const bool known =
+      solid_type(type) || point_nodes(type) > 0 || thin_type(type) || line_nodes(type) > 0;
+  return known ? Fate::kRead : Fate::kRefused;
+}
+
+Lines::Kind read_type(const std::string& type, Lines& lines, Scope& scope, SetChunk* chunk,
+                      Ignore& ignore) {
+  if (fate_of_type(type, ignore) != Fate::kRead) return skip_elements(lines, type, scope, ignore);
+  if (const auto solid = solid_type(type)) return read_solids(lines, *solid, scope, chunk, ignore);
+  if (point_nodes(type) > 0) return read_points(lines, type, scope, chunk, ignore);
+  return read_thin(lines, type, scope, chunk, ignore);
+}
+
 }  // namespace
 
-Lines::Kind read_nodes(Lines& lines, Scope& scope, Ignore& ignore) {
+Lines::Kind read_nodes(Lines& lines, Scope& scope, const LocalSystem& system, Ignore& ignore) {
   const Keyword keyword = lines.keyword();
   keyword.allow({"NSET", "SYSTEM"}, lines.source(), ignore);
-  if (keyword.choice("SYSTEM", "R") != "R") {
-    lines.source().fail(keyword.origin, fmt::format("*NODE: found SYSTEM={}, expected R: only "
-                                                    "rectangular coordinates are supported",
-                                                    *keyword.find("SYSTEM")));
-  }
+  const char coordinates = coordinates_of(keyword, lines.source());
   const auto first = scope.nodes.ids.size();
   Lines::Kind kind = lines.next();
-  for (; kind == Lines::Kind::kData; kind = lines.next()) read_node(lines, scope.nodes);
+  for (; kind == Lines::Kind::kData; kind = lines.next()) {
+    read_node(lines, system, coordinates, scope.nodes);
+  }
   if (keyword.has("NSET")) {
     const std::string& name = keyword.required("NSET", lines.source());
     SetChunk& chunk = new_chunk(scope.node_sets, name, keyword.origin);
@@ -203,7 +259,8 @@ Lines::Kind read_nodes(Lines& lines, Scope& scope, Ignore& ignore) {
   return kind;
 }
 
-Lines::Kind read_elements(Lines& lines, Scope& scope, Ignore& ignore, Refusals& refusals) {
+Lines::Kind read_elements(Lines& lines, Scope& scope, Ignore& ignore, Refusals& refusals,
+                          std::map<std::string, std::string>& notes) {
   const Keyword keyword = lines.keyword();
   keyword.allow({"TYPE", "ELSET"}, lines.source(), ignore);
   const std::string type = folded(keyword.required("TYPE", lines.source()));
@@ -212,14 +269,34 @@ Lines::Kind read_elements(Lines& lines, Scope& scope, Ignore& ignore, Refusals& 
     chunk =
         &new_chunk(scope.element_sets, keyword.required("ELSET", lines.source()), keyword.origin);
   }
-  if (ignore.lists(type)) return skip_elements(lines, type, scope, ignore);
-  if (const auto solid = solid_type(type)) return read_solids(lines, *solid, scope, chunk, ignore);
-  if (point_nodes(type) > 0) {
-    return read_points(lines, type, scope, chunk, ignore);
-  }
-  refusals.add(fmt::format("{}: element type {} is not supported; ignore = [\"{}\"] skips it",
-                           lines.source().where(keyword.origin), type, type));
-  return skip_elements(lines, type, scope, ignore);
+  Content& content = refusals.contents().count("element", type, lines.source(), keyword.origin, 0);
+  content.fate = fate_of_type(type, ignore);
+  const int64_t before = elements_in(scope);
+  const Lines::Kind kind = read_type(type, lines, scope, chunk, ignore);
+  content.count += elements_in(scope) - before;
+  const auto solid = solid_type(type);
+  if (content.fate == Fate::kRead && solid && !solid->variant.empty())
+    notes.try_emplace(
+        type, fmt::format("{}: {} is read as {}, without {}", lines.source().where(keyword.origin),
+                          type, solid->name, solid->variant));
+  if (content.fate == Fate::kRefused)
+    refusals.add(
+        fmt::format("{}: element type {} is not supported; ignore = [\"{}\"] skips it, and "
+                    "with it its stiffness and mass: {} of the recipe replace them",
+                    lines.source().where(keyword.origin), type, type,
+                    "[[spring]], [[coupling]] and [[point_mass]]"));
+  return kind;
+}
+
+std::vector<Listed> listed_elements() {
+  std::vector<Listed> rows;
+  for (const SolidType& type : solid_types())
+    rows.push_back({std::string(type.name), Fate::kRead,
+                    fmt::format("{}{}", traits(type.type).name, integration(type.formulation))});
+  for (const auto& [name, nodes] : kPointTypes)
+    rows.push_back(
+        {std::string(name), Fate::kRead, nodes == 1 ? "at one node" : "between two nodes"});
+  return rows;
 }
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -12,7 +12,7 @@ namespace {
 
 Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   Ignore ignore(options, folded_keyword);
-  Refusals refusals;
+  Refusals refusals(options.contents);
   RawDeck raw = parse(source, ignore, refusals);
   std::vector<std::string> notes = std::move(raw.notes);
   std::unique_ptr<Model> model_owner;
@@ -24,6 +24,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   build_materials(model);
   build_systems(model);
   refusals.require([&] { build_mesh(model); });
+  refusals.attempt([&] { build_thin(model); });
   build_surfaces(model);
   build_bolts(model);
   build_transforms(model);
@@ -31,6 +32,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   build_couplings(model);
   build_distributing(model);
   build_ties(model);
+  build_contacts(model);
   build_masses(model);
   build_springs(model);
   build_equations(model);
@@ -41,6 +43,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   build_cyclic(model);
   refusals.raise();
   model.deck.ignored = ignore.counted();
+  model.deck.passed = refusals.contents().passed_line();
   model.deck.files = source.files();
   return std::move(model.deck);
 }

@@ -38,8 +38,19 @@ namespace clatter::mesh::deck {
 /// - A reference node that belongs to an element becomes a point as well, which moves that node; a
 ///   ROT NODE's translations are the rotations of its reference point.
 /// - *DISTRIBUTING COUPLING with its node at the weighted centre of the others means the same in
-///   all programs. Elsewhere it is refused; ignore = ["MOMENT"] reads it as CalculiX does: a
-///   weighted mean, the moment of a force is lost.
+///   all programs. Elsewhere the moment of a force is balanced, as in Abaqus, with a note; ignore =
+///   ["MOMENT"] reads it as CalculiX does: a weighted mean, the moment is lost.
+/// - Elements of two dimensions that are a face of a solid are surfaces with the names of their
+///   sets, lines on the nodes of solids are node sets; without a section the others are left out
+///   with a note, with one they are refused.
+/// - Without any section a *ELSET of complete *ELEMENT sets (a physical group of Gmsh) is a region.
+/// - C3D10M, C3D8H, C3D8S, C3D8T and the like are read as the type without these letters, with a
+/// note
+///   each.
+/// - Bonded *CONTACT PAIR and general contact are ties; other contact is refused.
+/// - *DISTRIBUTING COUPLING, *KINEMATIC COUPLING, *RIGID BODY with TIE NSET or PIN NSET.
+/// - Keywords between *INSTANCE and *END INSTANCE belong to that instance alone.
+/// - <name> of *PARAMETER is replaced in all later lines.
 /// - An element line with too many nodes is refused; ignore = ["EXTRA NODES"] takes the first ones,
 ///   as CalculiX does.
 /// - A *TIE or *COUPLING surface of TYPE=NODE means the outer faces whose nodes are all in it.

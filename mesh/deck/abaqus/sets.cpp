@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "mesh/deck/node_sets.hpp"
 
 namespace clatter::mesh::deck::abaqus {
@@ -62,6 +64,7 @@ const std::vector<int32_t>& Sets::resolve(Kind kind, const Key& key, Origin orig
   std::vector<int32_t> members;
   for (const SetChunk& chunk : set->second.chunks) add_chunk(kind, key.first, chunk, members);
   --depth_;
+  if (set->second.unsorted) entry.in_order = members;
   sort_unique(members);
   members.shrink_to_fit();
   members_ += members.size();
@@ -97,14 +100,7 @@ void Sets::add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<i
   }
   for (const std::string& name : chunk.elements_of) {
     for (const int32_t element : elements(use, name, chunk.origin)) {
-      if (element >= numbering_.cells()) {
-        const PointElement& point =
-            numbering_.points()[static_cast<size_t>(element - numbering_.cells())];
-        out.push_back(point.node);
-        if (point.second >= 0) out.push_back(point.second);
-        continue;
-      }
-      const auto rows = numbering_.nodes_of(element);
+      const auto rows = numbering_.rows_of(element);
       out.insert(out.end(), rows.begin(), rows.end());
     }
   }
@@ -112,8 +108,8 @@ void Sets::add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<i
 
 // Repeated ranges take no more memory than a few complete sets, and linear time in their members.
 void Sets::compact(std::vector<int32_t>& out) const {
-  const size_t all = static_cast<size_t>(numbering_.nodes()) +
-                     static_cast<size_t>(numbering_.cells()) + numbering_.points().size();
+  const size_t all =
+      static_cast<size_t>(numbering_.nodes()) + static_cast<size_t>(numbering_.elements());
   if (out.size() <= 4 * all + 4096) return;
   std::vector<bool> is_member(all, false);
   for (const int32_t member : out) is_member[static_cast<size_t>(member)] = true;
@@ -176,12 +172,27 @@ std::vector<int32_t> Sets::at(Kind kind, const Fields& fields, size_t i, size_t 
   return {member};
 }
 
+std::vector<int32_t> Sets::nodes_in_order(const Fields& fields, size_t i, size_t use) {
+  std::vector<int32_t> rows = nodes_at(fields, i, use);
+  const std::string text = fields.word(i, "a node or node set");
+  const bool here = sets_of(Kind::kNodes, use).contains(folded(text));
+  const auto known = done_[0].find(here ? Key{use, folded(text)} : key_of(use, text));
+  return known != done_[0].end() && !known->second.in_order.empty() ? known->second.in_order : rows;
+}
+
 std::vector<int32_t> Sets::nodes_at(const Fields& fields, size_t i, size_t use) {
   return at(Kind::kNodes, fields, i, use);
 }
 
 std::vector<int32_t> Sets::elements_at(const Fields& fields, size_t i, size_t use) {
   return at(Kind::kElements, fields, i, use);
+}
+
+std::vector<int32_t> Sets::elements_or_all(const Fields& fields, size_t i, size_t use) {
+  if (!fields.blank(i)) return elements_at(fields, i, use);
+  std::vector<int32_t> all(static_cast<size_t>(numbering_.cells()));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 int32_t Sets::node_at(const Fields& fields, size_t i, size_t use) {

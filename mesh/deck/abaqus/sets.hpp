@@ -22,9 +22,13 @@ class Sets {
   /// The same for elements; those of one node follow the cells (Numbering::points).
   const std::vector<int32_t>& elements(size_t use, const std::string& name, Origin origin);
 
+  /// Rows of the nodes of field `i` where sets are paired: those of an UNSORTED set in its order.
+  std::vector<int32_t> nodes_in_order(const Fields& fields, size_t i, size_t use);
   /// The members of field `i`: a number or the name of a set.
   std::vector<int32_t> nodes_at(const Fields& fields, size_t i, size_t use);
   std::vector<int32_t> elements_at(const Fields& fields, size_t i, size_t use);
+  /// The same; all cells of the model where the field is empty.
+  std::vector<int32_t> elements_or_all(const Fields& fields, size_t i, size_t use);
   /// One node: its number, or the name of a set of one node.
   int32_t node_at(const Fields& fields, size_t i, size_t use);
   int32_t node_named(const std::string& text, size_t use, Origin origin);
@@ -34,6 +38,7 @@ class Sets {
   using Key = std::pair<size_t, std::string>;
   struct Entry {
     std::vector<int32_t> members;
+    std::vector<int32_t> in_order;  // of an UNSORTED set
     bool done = false;
   };
 

@@ -5,15 +5,19 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 #include <optional>
 #include <set>
 
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
-#include "core/mesh/cell_faces.hpp"
+#include "mesh/deck/faces_by_nodes.hpp"
 #include "mesh/deck/import.hpp"
+#include "mesh/deck/msh/cdb_reader.hpp"
 #include "mesh/deck/msh/groups.hpp"
+#include "mesh/deck/msh/med_reader.hpp"
+#include "mesh/deck/msh/unv_reader.hpp"
 #include "mesh/part/gmsh_in_child.hpp"
 
 namespace clatter::mesh {
@@ -33,12 +37,17 @@ std::optional<FaceType> face_type_of(int gmsh_type) {
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, const deck::ReadOptions& options,
-         const ChildLimits& limits)
-      : path_(path.string()), scan_(scan_msh(path)), groups_(path_, scan_, options.ignore) {
-    contents_ = read_msh_contents(path, limits);
+  Reader(const std::filesystem::path& path, ForeignMesh found, const deck::ReadOptions& options)
+      : path_(path.string()),
+        scan_(std::move(found.scan)),
+        groups_(path_, scan_, options.ignore),
+        contents_(std::move(found.contents)),
+        regions_(std::move(found.regions)),
+        ignored_(std::move(found.ignored)) {
     for (const std::string& warning : contents_.warnings)
       say(fmt::format("{}: Gmsh: {}", path_, warning));
+    deck_.materials = std::move(found.materials);
+    deck_.notes = std::move(found.notes);
     groups_.learn(contents_);
     deck_.mesh.name = path.stem().string();
     deck_.files = {path_};
@@ -51,6 +60,7 @@ class Reader {
     add_surfaces();
     add_node_sets();
     deck_.ignored = groups_.ignored();
+    deck_.ignored.insert(ignored_.begin(), ignored_.end());
     const int64_t unused =
         scan_.nodes - deck_.mesh.nodes.rows() - static_cast<int64_t>(deck_.points.size());
     if (unused > 0) deck_.ignored["nodes that nothing uses"] = unused;
@@ -107,8 +117,11 @@ class Reader {
     for (const auto& [key, cells] : blocks) {
       const auto [at, is_new] = number_of.emplace(key.first, deck_.mesh.regions.size());
       if (is_new) {
-        deck_.mesh.regions.push_back(groups_.region_name(key.first));
-        deck_.regions.push_back({{}, {}, path_, {}});
+        const std::string name = groups_.region_name(key.first);
+        const auto known = regions_.find(name);
+        deck_.mesh.regions.push_back(name);
+        deck_.regions.push_back(known == regions_.end() ? deck::Region{{}, {}, path_, {}}
+                                                        : known->second);
       }
       add_block(key.second, at->second, cells);
     }
@@ -173,15 +186,15 @@ class Reader {
 
   void add_surfaces() {
     std::map<std::string, SurfaceBuilder> builders;
-    std::vector<FaceRef> faces;
+    std::optional<deck::FacesByNodes> faces;
     for (const MshElements& elements : contents_.elements) {
       if (elements.dim != 2 || elements.tags.empty() || groups_.skips(elements)) continue;
       for (size_t e = 0; e < elements.tags.size(); ++e) {
         const auto names = groups_.of(elements, e);
         if (names.empty()) continue;
         if (!face_type_of(elements.gmsh_type)) refuse_kind(elements, "tri3, tri6, quad4 or quad8");
-        if (faces.empty()) faces = all_faces(deck_.mesh);
-        const BoundaryFace face = face_of(elements, e, names.front(), faces);
+        if (!faces) faces.emplace(deck_.mesh);
+        const BoundaryFace face = face_of(elements, e, names.front(), *faces);
         for (const std::string& name : names) builders[name].add(face.type, face.ids);
       }
     }
@@ -197,7 +210,8 @@ class Reader {
 
   // The cell face of an element.
   BoundaryFace face_of(const MshElements& elements, size_t e, const std::string& group,
-                       const std::vector<FaceRef>& faces) const {
+                       const deck::FacesByNodes& faces) const {
+    using Fit = deck::FacesByNodes::Fit;
     const FaceType type = *face_type_of(elements.gmsh_type);
     std::array<int32_t, kMaxFaceNodes> ids{};
     const auto n = static_cast<size_t>(traits(type).nodes);
@@ -205,35 +219,24 @@ class Reader {
       ids[i] = row_[node_at(elements.nodes[e * n + i], elements.tags[e])];
     const std::string what =
         fmt::format("element {} ({}) of surface '{}'", elements.tags[e], elements.kind, group);
-    const FaceKey key = face_key(type, std::span(ids).first(n));
-    const auto [first, last] =
-        std::equal_range(faces.begin(), faces.end(), FaceRef{key, 0, 0, 0},
-                         [](const FaceRef& a, const FaceRef& b) { return a.key < b.key; });
-    if (first == last)
+    const auto [fit, face, has_more_nodes] = faces.find(type, std::span(ids).first(n));
+    if (fit == Fit::kNone)
       fail(fmt::format(
           "{} is not a face of a cell; --ignore \"{}\" skips the group, --ignore \"{}\" "
           "all elements of the kind",
           what, group, elements.kind));
-    const BoundaryFace face = face_at(deck_.mesh, *first);
-    if (face.type != type ||
-        !std::is_permutation(ids.begin(), ids.begin() + static_cast<long>(n), face.ids.begin()))
+    if (fit == Fit::kOtherNodes || has_more_nodes)
       fail(fmt::format("{} has other nodes than the {} of its cell there", what,
                        traits(face.type).name));
-    if (last - first == 1) return face;
-    const BoundaryFace other = face_at(deck_.mesh, *(first + 1));
-    const auto region = [&](const BoundaryFace& f) {
-      return deck_.mesh.cells[static_cast<size_t>(f.block)].region;
-    };
-    if (region(face) == region(other))
+    if (fit == Fit::kInside)
       fail(
           fmt::format("{} lies within region '{}', expected a face of the boundary or between "
                       "regions; --ignore \"{}\" skips the group",
-                      what, deck_.mesh.regions[static_cast<size_t>(region(face))], group));
-    const auto corners = static_cast<size_t>(traits(type).corners);
-    const auto at =
-        std::find(face.ids.begin(), face.ids.begin() + static_cast<long>(corners), ids[0]);
-    const auto next = (static_cast<size_t>(at - face.ids.begin()) + 1) % corners;
-    return face.ids[next] == ids[1] ? face : other;
+                      what,
+                      deck_.mesh.regions[static_cast<size_t>(
+                          deck_.mesh.cells[static_cast<size_t>(face.block)].region)],
+                      group));
+    return face;
   }
 
   void check_skin(const Surface& surface) const {
@@ -266,22 +269,43 @@ class Reader {
   MshScan scan_;
   MshGroups groups_;
   MshContents contents_;
+  std::map<std::string, deck::Region> regions_;  // of the file, by name
+  std::map<std::string, int64_t> ignored_;
   deck::Deck deck_;
   std::vector<size_t> by_tag_;
   std::vector<int32_t> row_;
   std::vector<char> used_;  // 1: by a cell, 2: by a group of curves or points only
 };
 
-}  // namespace
-
-bool is_msh(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  return extension == ".msh" || extension == ".MSH" || extension == ".Msh";
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
 }
 
-deck::Deck read_msh(const std::filesystem::path& path, const UnitSystem& units,
-                    const deck::ReadOptions& options, const ChildLimits& limits) {
-  deck::Deck found = Reader(path, options, limits).run();
+ForeignMesh load(const std::filesystem::path& path, const deck::ReadOptions& options,
+                 const ChildLimits& limits) {
+  const std::string extension = extension_of(path);
+  if (extension == ".unv") return read_unv(path, options.ignore);
+  if (extension == ".cdb") return read_cdb(path, options.ignore);
+  if (extension == ".med") return read_med(path, options.ignore);
+  ForeignMesh found;
+  found.scan = scan_msh(path);
+  found.contents = read_msh_contents(path, limits);
+  return found;
+}
+
+}  // namespace
+
+bool is_mesh_file(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".msh" || extension == ".med" || extension == ".unv" || extension == ".cdb";
+}
+
+deck::Deck read_mesh_file(const std::filesystem::path& path, const UnitSystem& units,
+                          const deck::ReadOptions& options, const ChildLimits& limits) {
+  deck::Deck found = Reader(path, load(path, options, limits), options).run();
   deck::finish_deck(found, units, path.string());
   return found;
 }

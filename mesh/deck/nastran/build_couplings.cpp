@@ -4,9 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
-#include <cmath>
 
+#include "mesh/deck/nastran/dependent_rows.hpp"
 #include "mesh/deck/nastran/model.hpp"
 
 namespace clatter::mesh::deck::nastran {
@@ -25,79 +24,54 @@ bool frame_free(DofMask dofs, bool has_rotations) {
   return all_or_none(kTranslations) && (!has_rotations || all_or_none(kRotations));
 }
 
-// Transforms rows t so that each has its own pivot column (1 there, 0 in the other rows), by
-// elimination with the largest pivots. Returns the pivots.
-std::vector<int> reduce_rows(std::vector<Vector3d>& rows) {
-  std::vector<int> pivots;
-  for (size_t i = 0; i < rows.size(); ++i) {
-    Eigen::Index pivot = 0;
-    rows[i].cwiseAbs().maxCoeff(&pivot);
-    rows[i] /= rows[i][pivot];
-    for (size_t j = 0; j < rows.size(); ++j) {
-      if (j != i) rows[j] -= rows[j][pivot] * rows[i];
-    }
-    for (size_t j = 0; j < rows.size(); ++j) {
-      if (j != i) rows[j][pivot] = 0.0;
-    }
-    pivots.push_back(static_cast<int>(pivot));
-  }
-  return pivots;
-}
-
-// RBE2 in some directions of a displacement system: for each direction t of the dependent d,
+// The rows of dependent_rows() for a reference with six DoFs:
 // t . (u_d - u_r - theta_r x (x_d - x_r)) = 0, and for rotations t . (theta_d - theta_r) = 0.
 void add_rigid_rows(Model& model, const RawRigid& raw, NodeIndex reference, NodeIndex dependent) {
-  const Matrix3d axes = model.systems.directions(model.node_map.displacement_system(dependent),
-                                                 model.node_map.position(dependent), raw.origin);
   const Vector3d arm = model.node_map.position(dependent) - model.node_map.position(reference);
-  for (const int base : {0, 3}) {
-    if (base == 3 && !model.node_map.is_point(dependent)) break;
-    std::vector<Vector3d> rows;
-    for (int k = 0; k < 3; ++k) {
-      if (raw.dofs >> (base + k) & 1) rows.push_back(axes.col(k));
-    }
-    const std::vector<int> pivots = reduce_rows(rows);
-    for (size_t i = 0; i < rows.size(); ++i) {
-      const Vector3d& t = rows[i];
-      const Vector3d turn = arm.cross(t);
-      Equation equation;
-      equation.where = model.source.where(raw.origin);
-      add_term(equation.terms, dependent, base + pivots[i], 1.0);
-      for (int k = 0; k < 3; ++k) {
-        if (k != pivots[i]) add_term(equation.terms, dependent, base + k, t[k]);
-      }
-      for (int k = 0; k < 3; ++k) add_term(equation.terms, reference, base + k, -t[k]);
-      for (int k = 0; base == 0 && k < 3; ++k) add_term(equation.terms, reference, 3 + k, -turn[k]);
-      model.deck.equations.push_back(std::move(equation));
-    }
+  for (DependentRow& row : dependent_rows(model, dependent, raw.dofs, raw.origin)) {
+    const Vector3d turn = arm.cross(row.direction);
+    std::vector<Equation::Term>& terms = row.equation.terms;
+    for (int k = 0; k < 3; ++k) add_term(terms, reference, row.base + k, -row.direction[k]);
+    for (int k = 0; row.base == 0 && k < 3; ++k) add_term(terms, reference, 3 + k, -turn[k]);
+    model.deck.equations.push_back(std::move(row.equation));
   }
 }
 
 void add_rigid(Model& model, const RawRigid& raw) {
   Rigid rigid;
-  rigid.name = fmt::format("rbe2_{}", raw.id);
+  rigid.name = raw.name;
   rigid.where = model.source.where(raw.origin);
   rigid.reference = model.require(raw.reference, raw.origin);
   rigid.dofs = raw.dofs;
   for (const NodeIndex node_index : model.node_indices(raw.dependents, raw.origin, true)) {
     if (node_index == rigid.reference) {
-      model.source.fail(raw.origin, fmt::format("RBE2 {}: its reference {} is a dependent, too",
-                                                raw.id, raw.reference));
+      model.source.fail(raw.origin, fmt::format("{}: its reference {} is a dependent, too",
+                                                raw.name, raw.reference));
     }
     const bool basic = model.node_map.displacement_system(node_index) == 0;
     if (basic || frame_free(raw.dofs, model.node_map.is_point(node_index))) {
       rigid.dependents.push_back(node_index);
     } else if (!model.node_map.is_point(rigid.reference)) {
-      model.source.fail(
-          raw.origin,
-          fmt::format("RBE2 {}: found some directions of a displacement system (CD) and "
-                      "a node of solids as reference, expected one of both",
-                      raw.id));
+      model.source.fail(raw.origin,
+                        fmt::format("{}: found some directions of a displacement system (CD) and "
+                                    "a node of solids as reference, expected one of both",
+                                    raw.name));
     } else {
       add_rigid_rows(model, raw, rigid.reference, node_index);
     }
   }
   if (!rigid.dependents.empty()) model.deck.rigid.push_back(std::move(rigid));
+}
+
+// Adds a term with rotations: nodes of solids have displacements alone. Returns how many they are.
+size_t split_term(Model& model, const Distributing::Term& term, Distributing& rbe3) {
+  Distributing::Term points{term.weight, term.dofs, {}};
+  Distributing::Term nodes{term.weight, static_cast<DofMask>(term.dofs & kTranslations), {}};
+  for (const NodeIndex index : term.node_indices)
+    (model.node_map.is_point(index) ? points : nodes).node_indices.push_back(index);
+  for (const Distributing::Term& one : {points, nodes})
+    if (!one.node_indices.empty() && one.dofs != 0) rbe3.terms.push_back(one);
+  return nodes.node_indices.size();
 }
 
 void add_distributing(Model& model, const RawDistributing& raw) {
@@ -106,6 +80,7 @@ void add_distributing(Model& model, const RawDistributing& raw) {
   rbe3.where = model.source.where(raw.origin);
   rbe3.reference = model.require(raw.reference, raw.origin);
   rbe3.dofs = raw.dofs;
+  size_t turning = 0;
   const auto check_frame = [&](NodeIndex node_index, DofMask dofs) {
     if (model.node_map.displacement_system(node_index) == 0 || frame_free(dofs, true)) return;
     model.source.fail(raw.origin,
@@ -119,16 +94,18 @@ void add_distributing(Model& model, const RawDistributing& raw) {
                             model.node_indices(raw_term.grids, raw.origin, true)};
     for (const NodeIndex node_index : term.node_indices) {
       check_frame(node_index, term.dofs);
-      if (!model.node_map.is_point(node_index) && (term.dofs & kRotations) != 0) {
-        model.source.fail(
-            raw.origin,
-            fmt::format("RBE3 {}: found rotations of node {} of solids, which has none; "
-                        "expected components 123",
-                        raw.id, model.deck.mesh.node_ids[static_cast<size_t>(node_index)]));
-      }
     }
-    rbe3.terms.push_back(std::move(term));
+    if ((term.dofs & kRotations) != 0) {
+      turning += split_term(model, term, rbe3);
+    } else {
+      rbe3.terms.push_back(std::move(term));
+    }
   }
+  if (turning > 0)
+    model.deck.notes.push_back(
+        fmt::format("{}: RBE3 {}: components 456 of {} nodes of solids are left out: they have no "
+                    "rotations",
+                    rbe3.where, raw.id, turning));
   model.deck.distributing.push_back(std::move(rbe3));
 }
 

@@ -15,27 +15,10 @@ void add_equation(Model& model, const RawEquation& raw) {
   equation.where = model.source.where(raw.origin);
   for (const auto& term : raw.terms) {
     const NodeIndex node_index = model.require(term.grid, raw.origin);
-    const int base = term.direction < 3 ? 0 : 3;
-    if (base == 3 && !model.node_map.is_point(node_index)) {
-      model.source.fail(raw.origin, fmt::format("MPC: found a rotation of node {} of solids, which "
-                                                "has none",
-                                                term.grid));
-    }
-    const int32_t system = model.node_map.displacement_system(node_index);
-    if (system == 0) {
-      add_term(equation.terms, node_index, term.direction, term.coefficient);
-      continue;
-    }
-    const Vector3d t =
-        term.coefficient *
-        model.systems.directions(system, model.node_map.position(node_index), raw.origin)
-            .col(term.direction - base);
-    Eigen::Index largest = 0;  // first: the first term of an equation is the dependent
-    t.cwiseAbs().maxCoeff(&largest);
-    add_term(equation.terms, node_index, base + static_cast<int>(largest), t[largest]);
-    for (int k = 0; k < 3; ++k) {
-      if (k != largest) add_term(equation.terms, node_index, base + k, t[k]);
-    }
+    const int direction = model.direction_at(term.grid, term.direction, raw.origin);
+    for (const Equation::Term& one :
+         terms_along(model, node_index, direction, term.coefficient, raw.origin))
+      equation.terms.push_back(one);
   }
   model.deck.equations.push_back(std::move(equation));
 }
@@ -70,6 +53,27 @@ void add_chosen_mpc(Model& model) {
 }
 
 }  // namespace
+
+std::vector<Equation::Term> terms_along(Model& model, NodeIndex node_index, int direction,
+                                        double factor, Origin origin) {
+  std::vector<Equation::Term> terms;
+  const int32_t system = model.node_map.displacement_system(node_index);
+  if (system == 0) {
+    add_term(terms, node_index, direction, factor);
+    return terms;
+  }
+  const int base = direction < 3 ? 0 : 3;
+  const Vector3d t =
+      factor * model.systems.directions(system, model.node_map.position(node_index), origin)
+                   .col(direction - base);
+  Eigen::Index largest = 0;
+  t.cwiseAbs().maxCoeff(&largest);
+  add_term(terms, node_index, base + static_cast<int>(largest), t[largest]);
+  for (int k = 0; k < 3; ++k) {
+    if (k != largest) add_term(terms, node_index, base + k, t[k]);
+  }
+  return terms;
+}
 
 void build_equations(Model& model) {
   model.refusals.attempt([&] { add_chosen_mpc(model); });

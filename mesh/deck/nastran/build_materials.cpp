@@ -39,6 +39,12 @@ Material isotropic(const Model& model, int32_t id, const RawMaterial& raw) {
 std::string use_material(Model& model, int32_t id, Origin origin) {
   const auto at = model.raw.materials.find(id);
   if (at == model.raw.materials.end()) {
+    const auto other = model.raw.other_materials.find(id);
+    if (other != model.raw.other_materials.end())
+      model.source.fail(
+          origin, fmt::format("PSOLID: material {} is a {}, expected a MAT1 or MAT9 (a solid, "
+                              "linear elastic): write its constants as one of them",
+                              id, other->second));
     if (model.raw.materials.empty()) return {};
     model.source.fail(origin, fmt::format("PSOLID: found no material {}", id));
   }

@@ -2,8 +2,10 @@
 // Cells and nodes: deck numbers become rows; grids without cells are skipped.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
+#include "mesh/deck/cell_repair.hpp"
 #include "mesh/deck/nastran/model.hpp"
 
 namespace clatter::mesh::deck::nastran {
@@ -49,6 +51,19 @@ std::vector<int32_t> find_rows(Model& model) {
   return mesh_node;
 }
 
+// Faces of loads are looked up in the cells as they are afterwards.
+void repair(Model& model) {
+  const std::string& deck = model.source.files().front();
+  const std::vector<std::string> done = repair_cells(model.deck.mesh, deck);
+  for (const std::string& text : done)
+    model.deck.renumbered.push_back(fmt::format("{}: {}", deck, text));
+  if (done.empty()) return;
+  std::vector<int32_t> ids;
+  for (const CellBlock& block : model.deck.mesh.cells)
+    ids.insert(ids.end(), block.ids.begin(), block.ids.end());
+  model.cells = IdIndex(ids);
+}
+
 }  // namespace
 
 void build_mesh(Model& model) {
@@ -78,6 +93,7 @@ void build_mesh(Model& model) {
     block.nodes.drain([&](int32_t row) { *node++ = mesh_node[static_cast<size_t>(row)]; });
     mesh.cells.push_back(std::move(cells));
   }
+  for (const int32_t id : grids.ids) mesh.deck.largest_node = std::max(mesh.deck.largest_node, id);
   mesh.nodes.resize(count, 3);
   mesh.node_ids.resize(static_cast<size_t>(count));
   for (size_t row = 0; row < grids.size(); ++row) {
@@ -89,6 +105,7 @@ void build_mesh(Model& model) {
   for (const int32_t row : hanging_rows)
     mesh.node_sets[kHangingMidSideNodes].push_back(mesh_node[static_cast<size_t>(row)]);
   model.node_map.set_mesh_nodes(std::move(mesh_node));
+  repair(model);
 }
 
 }  // namespace clatter::mesh::deck::nastran

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "mesh/deck/nastran/model.hpp"
@@ -10,31 +11,108 @@
 namespace clatter::mesh::deck::nastran {
 namespace {
 
-// IN and ISOP of PSOLID. Eight-node cells with bubble functions are closest to incompatible modes,
-// our default; 20-node cells have 2 or 3 points along an edge.
-Formulation formulation_of(const Model& model, const RawSolid& solid, CellType type) {
-  const auto is = [](const std::string& text, std::initializer_list<const char*> names) {
-    return std::find(names.begin(), names.end(), text) != names.end();
-  };
-  const bool two = is(solid.integration, {"TWO", "2"});
-  const bool three = is(solid.integration, {"THREE", "3"});
-  if (!two && !three && !is(solid.integration, {"", "0", "BUBBLE"})) {
-    model.source.fail(solid.origin,
-                      fmt::format("PSOLID IN: found {}, expected BUBBLE, TWO or THREE",
-                                  shown(solid.integration)));
-  }
-  const bool full = is(solid.scheme, {"FULL", "1"});
-  if (!full && !is(solid.scheme, {"", "0", "REDUCED"})) {
-    model.source.fail(solid.origin, fmt::format("PSOLID ISOP: found {}, expected REDUCED or FULL",
-                                                shown(solid.scheme)));
-  }
-  if (type == CellType::kHex8 && two && full) return Formulation::kFull;
-  if (type == CellType::kHex20 && two) return Formulation::kReduced;
-  if (type == CellType::kHex20 && three) return Formulation::kFull;
-  return Formulation::kDefault;
+// IN of PSOLID.
+enum class Points { kDefault, kBubble, kTwo, kThree };
+
+bool is_one_of(const std::string& text, std::initializer_list<const char*> names) {
+  return std::find(names.begin(), names.end(), text) != names.end();
 }
 
-Region region_of(Model& model, int32_t property, const RawSolid& solid) {
+Points points_of(const Model& model, const RawSolid& solid) {
+  const std::string& in = solid.integration;
+  if (is_one_of(in, {"TWO", "2"})) return Points::kTwo;
+  if (is_one_of(in, {"THREE", "3"})) return Points::kThree;
+  if (in.empty()) return Points::kDefault;
+  if (is_one_of(in, {"0", "BUBBLE"})) return Points::kBubble;
+  model.source.fail(solid.origin,
+                    fmt::format("PSOLID IN: found {}, expected BUBBLE, TWO or THREE", shown(in)));
+}
+
+bool is_full(const Model& model, const RawSolid& solid) {
+  if (is_one_of(solid.scheme, {"FULL", "1"})) return true;
+  if (is_one_of(solid.scheme, {"", "0", "REDUCED"})) return false;
+  model.source.fail(solid.origin, fmt::format("PSOLID ISOP: found {}, expected REDUCED or FULL",
+                                              shown(solid.scheme)));
+}
+
+struct Counterpart {
+  Formulation formulation = Formulation::kDefault;
+  const char* what = "";  // it replaces; empty: the same
+};
+
+constexpr const char* kShear =
+    "has no counterpart for the reduced shear strains of Nastran; the nearest is";
+constexpr const char* kBubble =
+    "has no counterpart for the bubble functions of Nastran; the nearest is";
+// What comes nearest to an IN and ISOP. Tetrahedra: their points differ, their stiffness does not.
+//   IN       ISOP     cells of corners               quadratic cells
+//   BUBBLE   REDUCED  2 points, reduced shear,       (IN 0: as THREE)
+//                     bubble functions: the default
+//   TWO      REDUCED  2 points, reduced shear        2 points, reduced shear
+//   TWO      FULL     2 points                       2 points
+//   THREE    REDUCED  3 points, reduced shear        3 points, reduced shear: the default
+//   THREE    FULL     3 points                       3 points
+Counterpart counterpart_of(CellType type, Points points, bool full) {
+  const bool two = points == Points::kTwo, three = points == Points::kThree;
+  const bool standard = full && (two || three);
+  switch (type) {
+    case CellType::kHex8:
+      if (standard) return {three ? Formulation::kFine : Formulation::kFull, ""};
+      return {Formulation::kDefault, two || three ? kShear : kBubble};
+    case CellType::kWedge6:
+      if (standard) return {three ? Formulation::kFine : Formulation::kFull, ""};
+      return {Formulation::kFull, kShear};
+    case CellType::kHex20:
+    case CellType::kWedge15:
+      return {two ? Formulation::kReduced : Formulation::kFull, full ? "" : kShear};
+    case CellType::kPyramid5:
+    case CellType::kPyramid13:
+      return {Formulation::kDefault, full ? "" : kShear};
+    default:
+      return {};
+  }
+}
+
+const char* name_of(CellType type, Formulation formulation) {
+  if (formulation == Formulation::kReduced) return "reduced integration";
+  return formulation == Formulation::kDefault && type == CellType::kHex8 ? "incompatible modes"
+                                                                         : "full integration";
+}
+
+std::string text_or(const std::string& text, const char* otherwise) {
+  return text.empty() ? otherwise : text;
+}
+
+// One remark for all properties with the same choice.
+class FormulationNotes {
+ public:
+  void add(const Model& model, int32_t property, const RawSolid& solid, CellType type,
+           const Counterpart& found) {
+    if (*found.what == 0) return;
+    const CellTraits& cell = traits(type);
+    Entry& entry = entries_[fmt::format("IN {}, ISOP {}: {} of {} grids {} {}",
+                                        text_or(solid.integration, "blank"),
+                                        text_or(solid.scheme, "blank"), cell.nastran_name,
+                                        cell.nodes, found.what, name_of(type, found.formulation))];
+    if (entry.count++ == 0) entry = {model.source.where(solid.origin), property, 1};
+  }
+  void list(Model& model) const {
+    for (const auto& [text, entry] : entries_)
+      model.deck.notes.push_back(
+          fmt::format("{}: PSOLID {}{}, {}", entry.where, entry.property,
+                      entry.count == 1 ? "" : fmt::format(" and {} more", entry.count - 1), text));
+  }
+
+ private:
+  struct Entry {
+    std::string where;
+    int32_t property = 0;
+    int count = 0;
+  };
+  std::map<std::string, Entry> entries_;
+};
+
+Region region_of(Model& model, int32_t property, const RawSolid& solid, FormulationNotes& notes) {
   Region region;
   region.where = model.source.where(solid.origin);
   region.material = use_material(model, solid.material, solid.origin);
@@ -48,10 +126,19 @@ Region region_of(Model& model, int32_t property, const RawSolid& solid) {
   for (int t = 0; t < kCellTypes; ++t) {
     const auto type = static_cast<CellType>(t);
     if (!model.raw.block_index.contains({type, property})) continue;
-    const Formulation formulation = formulation_of(model, solid, type);
-    if (formulation != Formulation::kDefault) region.formulation[type] = formulation;
+    const Counterpart found = counterpart_of(type, points_of(model, solid), is_full(model, solid));
+    if (found.formulation != Formulation::kDefault) region.formulation[type] = found.formulation;
+    notes.add(model, property, solid, type, found);
   }
   return region;
+}
+
+// The card of a property that is no PSOLID; empty: there is none.
+std::string other_card(const Model& model, int32_t property) {
+  const auto shell = model.raw.shells.find(property);
+  if (shell != model.raw.shells.end()) return shell->second.card;
+  const auto other = model.raw.other_properties.find(property);
+  return other == model.raw.other_properties.end() ? "" : other->second;
 }
 
 // At the first cell of a property.
@@ -66,6 +153,7 @@ Region region_of(Model& model, int32_t property, const RawSolid& solid) {
 
 void build_regions(Model& model, const std::vector<int32_t>& properties) {
   std::set<std::string> names;
+  FormulationNotes notes;
   for (int32_t property : properties) {
     const auto named = model.raw.region_names.find(property);
     const std::string name =
@@ -74,14 +162,20 @@ void build_regions(Model& model, const std::vector<int32_t>& properties) {
       refuse(model, property, "another region is named " + shown(name));
     const auto solid = model.raw.solids.find(property);
     if (solid != model.raw.solids.end()) {
-      model.deck.regions.push_back(region_of(model, property, solid->second));
+      model.deck.regions.push_back(region_of(model, property, solid->second, notes));
     } else if (model.raw.solids.empty()) {
       model.deck.regions.emplace_back();  // a mesh without properties
     } else {
-      refuse(model, property, fmt::format("found no PSOLID {}", property));
+      const std::string card = other_card(model, property);
+      refuse(model, property,
+             card.empty()
+                 ? fmt::format("found no PSOLID {}", property)
+                 : fmt::format("property {} is a {}, expected a PSOLID: linear elastic solids",
+                               property, card));
     }
     model.deck.mesh.regions.push_back(name);
   }
+  if (!model.raw.materials.empty()) notes.list(model);
 }
 
 }  // namespace clatter::mesh::deck::nastran

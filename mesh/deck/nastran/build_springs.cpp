@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// CELAS1, CELAS2 and PELAS.
+// CELAS1 to CELAS4, CMASS1 to CMASS4.
 #include <fmt/format.h>
 
 #include "mesh/deck/nastran/model.hpp"
@@ -7,53 +7,63 @@
 namespace clatter::mesh::deck::nastran {
 namespace {
 
-void add_end(Model& model, const RawSpring& raw, const RawSpring::End& end, double sign,
-             Spring& spring) {
-  const NodeIndex node_index = model.require(end.grid, raw.origin);
-  const int base = end.direction < 3 ? 0 : 3;
-  if (base == 3 && !model.node_map.is_point(node_index)) {
-    model.source.fail(raw.origin,
-                      fmt::format("spring: found a rotation of node {} of solids, which "
-                                  "has none",
-                                  end.grid));
-  }
-  const int32_t system = model.node_map.displacement_system(node_index);
-  Eigen::Vector3d t = Eigen::Vector3d::Unit(end.direction - base);
-  if (system != 0) {
-    t = model.systems.directions(system, model.node_map.position(node_index), raw.origin)
-            .col(end.direction - base);
-  }
-  for (int k = 0; k < 3; ++k) {
-    add_term(spring.terms, node_index, base + k, sign * t[k]);
-  }
+double value_of(const Model& model, const RawSpring& raw) {
+  if (raw.property == 0) return raw.value;
+  const auto& values = raw.is_mass ? model.raw.scalar_masses : model.raw.spring_stiffness;
+  const auto found = values.find(raw.property);
+  if (found != values.end()) return found->second;
+  model.source.fail(raw.origin,
+                    fmt::format("found no {} {}", raw.is_mass ? "PMASS" : "PELAS", raw.property));
 }
 
-void add_spring(Model& model, const RawSpring& raw) {
-  Spring spring;
-  spring.where = model.source.where(raw.origin);
-  spring.stiffness = raw.stiffness;
-  if (raw.property > 0) {
-    const auto found = model.raw.spring_stiffness.find(raw.property);
-    if (found == model.raw.spring_stiffness.end()) {
-      model.source.fail(raw.origin, fmt::format("CELAS1: found no PELAS {}", raw.property));
+// u_1 - u_2, along the directions of the ends.
+std::vector<Equation::Term> elongation_of(Model& model, const RawSpring& raw) {
+  std::vector<Equation::Term> terms;
+  int kinds = 0;  // bit 0: displacements, bit 1: rotations
+  for (size_t end = 0; end < raw.ends.size(); ++end) {
+    const int32_t grid = raw.ends[end].grid;
+    const NodeIndex node_index = model.require(grid, raw.origin);
+    const int direction = model.direction_at(grid, raw.ends[end].direction, raw.origin);
+    if (direction >= 3 && !model.node_map.is_point(node_index)) {
+      model.source.fail(raw.origin,
+                        fmt::format("spring: found a rotation of node {} of solids, which "
+                                    "has none",
+                                    grid));
     }
-    spring.stiffness = found->second;
+    kinds |= direction < 3 ? 1 : 2;
+    for (const Equation::Term& term :
+         terms_along(model, node_index, direction, end == 0 ? 1.0 : -1.0, raw.origin))
+      terms.push_back(term);
   }
-  for (size_t end = 0; end < raw.ends.size(); ++end)
-    add_end(model, raw, raw.ends[end], end == 0 ? 1.0 : -1.0, spring);
-  if (raw.ends.size() == 2 && (raw.ends[0].direction < 3) != (raw.ends[1].direction < 3)) {
+  if (kinds == 3) {
     model.source.fail(raw.origin,
                       "spring: found a rotation against a displacement, expected one "
                       "kind");
   }
-  model.deck.springs.push_back(std::move(spring));
+  return terms;
+}
+
+void add(Model& model, const RawSpring& raw) {
+  const std::vector<Equation::Term> terms = elongation_of(model, raw);
+  const std::string where = model.source.where(raw.origin);
+  const double value = value_of(model, raw);
+  if (!raw.is_mass) {
+    model.deck.springs.push_back({where, value, terms});
+    return;
+  }
+  Eigen::VectorXd c(static_cast<Eigen::Index>(terms.size()));
+  for (Eigen::Index i = 0; i < c.size(); ++i) c(i) = terms[static_cast<size_t>(i)].coefficient;
+  model.spend(16 * c.size() * c.size(), raw.origin);
+  model.deck.matrices.push_back({fmt::format("cmass_{}", model.deck.matrices.size() + 1), where,
+                                 true, terms,
+                                 model.raw.control.mass_factor * value * c * c.transpose()});
 }
 
 }  // namespace
 
 void build_springs(Model& model) {
   for (const RawSpring& raw : model.raw.springs) {
-    model.refusals.attempt([&] { add_spring(model, raw); });
+    model.refusals.attempt([&] { add(model, raw); });
   }
 }
 

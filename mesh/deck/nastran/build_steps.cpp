@@ -58,16 +58,17 @@ class Steps {
     Step step;
     step.name = fmt::format("subcase_{}", subcase.id);
     step.where = model_.source.where(subcase.origin);
-    const int32_t solution = raw_.control.solution;
+    const int32_t solution = choice.analysis != 0 ? choice.analysis : raw_.control.solution;
     if (solution == 101) step.kind = Step::Kind::kStatic;
     if (solution == 103) step.kind = Step::Kind::kFrequency;
     if (choice.method != 0) {
       const auto count = raw_.eigen_counts.find(choice.method);
-      if (count == raw_.eigen_counts.end()) {
+      const bool needed = solution == 0 || solution == 103;
+      if (count == raw_.eigen_counts.end() && needed) {
         model_.source.fail(subcase.origin,
                            fmt::format("METHOD = {}: found no EIGRL or EIGR", choice.method));
       }
-      step.modes = count->second;
+      if (count != raw_.eigen_counts.end()) step.modes = count->second;
     }
     if (choice.load != 0) loads_.list(step, choice.load, subcase.origin);
     if (choice.temperature != 0) loads_.list_temperature(step, choice.temperature, subcase.origin);

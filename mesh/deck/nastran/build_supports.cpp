@@ -49,6 +49,11 @@ void build_supports(Model& model) {
   Supports retained(model, "aset");
   for (const RawHold& hold : model.raw.retained) retained.read(hold);
   append(model.deck.retained, retained.list());
+  if (retained.unused() > 0)
+    model.deck.notes.push_back(
+        fmt::format("{}: {} retained grids (ASET, BSET, CSET) belong to no solid, coupling or "
+                    "spring: they are left out",
+                    model.source.where(model.raw.retained.front().origin), retained.unused()));
 }
 
 }  // namespace clatter::mesh::deck::nastran

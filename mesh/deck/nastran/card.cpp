@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace clatter::mesh::deck::nastran {
@@ -135,6 +136,29 @@ bool Card::is_word(size_t i) const {
   return !word.empty() && word[0] >= 'A' && word[0] <= 'Z';
 }
 
+// THRU b EXCEPT c, d THRU e: numbers up to the first that is outside the range; returns the last
+// field.
+size_t Card::leave_out(size_t i, const char* what, IdList& list) const {
+  const IdRange whole = list.back();
+  if (whole.step != 1) fail(i, "found EXCEPT after BY, expected one of them");
+  for (; i < size(); ++i) {
+    if (blank(i)) continue;
+    if (!is_integer(i)) break;
+    const int32_t first = id(i, what);
+    if (first < whole.first || first > whole.last) break;
+    int32_t last = first;
+    if (text(i + 1) == "THRU") last = std::min(id(i += 2, what), whole.last);
+    const IdRange open = list.back();
+    if (first < open.first || last < first)
+      fail(i, fmt::format("found {} after EXCEPT, expected ascending numbers", first));
+    list.pop_back();
+    if (first > open.first) list.push_back({open.first, first - 1, 1, true});
+    if (last == whole.last) return i;
+    list.push_back({last + 1, open.last, 1, true});
+  }
+  return i - 1;
+}
+
 IdList Card::ids(size_t i, const char* what, size_t* end) const {
   IdList list;
   for (; i < size(); ++i) {
@@ -153,6 +177,8 @@ IdList Card::ids(size_t i, const char* what, size_t* end) const {
       }
     } else if (text(i) == "BY" && !list.empty() && list.back().is_range) {
       list.back().step = id(++i, "BY");
+    } else if (text(i) == "EXCEPT" && !list.empty() && list.back().is_range) {
+      i = leave_out(i + 1, what, list);
     } else {
       break;
     }

@@ -14,7 +14,8 @@
 
 namespace clatter::mesh::deck::nastran {
 
-/// An integer list of a card: single ones (first = last) and FIRST THRU LAST BY STEP.
+/// An integer list of a card: single ones (first = last), FIRST THRU LAST BY STEP, and what EXCEPT
+/// leaves of FIRST THRU LAST.
 using IdList = std::vector<IdRange>;
 
 /// Fields count from 0, field 2 of the first line; each further line brings 8 more (large: 4).
@@ -73,6 +74,7 @@ class Card {
     uint32_t begin, length;  // in text_
   };
   void add(const LineFields& line, Origin origin);
+  size_t leave_out(size_t i, const char* what, IdList& list) const;
 
   const Source* source_;
   std::string name_, next_, text_;

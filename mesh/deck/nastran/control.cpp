@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 
 #include "mesh/deck/nastran/fields.hpp"
@@ -18,19 +19,38 @@ constexpr std::array<std::string_view, 23> kHarmlessExecutive = {
     "ECHOOFF",   "ECHOON", "GEOMCHECK",    "ID",   "INIT",    "LABEL",  "MODEL_CHECK",  "NASTRAN",
     "RFINCLUDE", "SOL",    "SPARSESOLVER", "TIME", "VERSION", "EXPAND", "DBSETDEL"};
 
-constexpr std::array<std::string_view, 68> kHarmlessCase = {
-    "ACCELERATION", "ACFPMRESULT",  "ANALYSIS", "AUTOSPC",     "BCRESULTS",     "BGRESULTS",
-    "BOUTPUT",      "DISPLACEMENT", "ECHO",     "ECHOOFF",     "ECHOON",        "EDE",
-    "EKE",          "ELFORCE",      "ELSDCON",  "ELSTRAIN",    "ELSTRESS",      "ELSUM",
-    "ENDTIME",      "ESE",          "FLUX",     "FORCE",       "GPFORCE",       "GPKE",
-    "GPSDCON",      "GPSTRAIN",     "GPSTRESS", "GROUNDCHECK", "HOUTPUT",       "LABEL",
-    "LINE",         "MAXLINES",     "MAXMIN",   "MEFFMASS",    "MODALKE",       "MODALSE",
-    "MPCFORCES",    "NLSTRESS",     "NOUTPUT",  "OLOAD",       "OMODES",        "OUTPUT",
-    "PAGE",         "PLOTID",       "PRESSURE", "RESVEC",      "SACCELERATION", "SDISPLACEMENT",
-    "SET",          "SHELLTHK",     "SKIP",     "SPCFORCES",   "STRAIN",        "STRESS",
-    "STRFIELD",     "SUBTITLE",     "SURFACE",  "SVECTOR",     "SVELOCITY",     "THERMAL",
-    "TITLE",        "VECTOR",       "VELOCITY", "VOLUME",      "VUGRID",        "WEIGHTCHECK",
-    "XTITLE",       "YTITLE"};
+constexpr std::array<std::string_view, 113> kHarmlessCase = {
+    "ACCELERATION", "ACFPMRESULT",   "ANALYSIS",    "AUTOSPC",       "AUXMODEL",     "B2GG",
+    "B2PP",         "BCRESULTS",     "BGRESULTS",   "BOUTPUT",       "BUCKLING",     "CMETHOD",
+    "DESGLB",       "DESOBJ",        "DESSUB",      "DESVAR",        "DISPLACEMENT", "DLOAD",
+    "DRSPAN",       "ECHO",          "ECHOOFF",     "ECHOON",        "EDE",          "EKE",
+    "ELFORCE",      "ELSDCON",       "ELSTRAIN",    "ELSTRESS",      "ELSUM",        "ENDTIME",
+    "ESE",          "EXTSEOUT",      "FLUX",        "FORCE",         "FREQUENCY",    "GPFORCE",
+    "GPKE",         "GPSDCON",       "GPSTRAIN",    "GPSTRESS",      "GROUNDCHECK",  "HOUTPUT",
+    "IC",           "K42GG",         "LABEL",       "LINE",          "LOADSET",      "MAXLINES",
+    "MAXMIN",       "MEFFMASS",      "MFLUID",      "MODALKE",       "MODALSE",      "MODESELECT",
+    "MPCFORCES",    "NLPARM",        "NLSTEP",      "NLSTRESS",      "NONLINEAR",    "NOUTPUT",
+    "OFREQUENCY",   "OLOAD",         "OMODES",      "OTIME",         "OUTPUT",       "PAGE",
+    "PLOTID",       "PRESSURE",      "RANDOM",      "REPCASE",       "RESVEC",       "RGYRO",
+    "RSMETHOD",     "SACCELERATION", "SDAMPING",    "SDISPLACEMENT", "SEALL",        "SEDR",
+    "SEDV",         "SEEXCLUDE",     "SEFINAL",     "SEKREDUCE",     "SELGENERATE",  "SEMGENERATE",
+    "SET",          "SHELLTHK",      "SKIP",        "SPCFORCES",     "STATSUB",      "STRAIN",
+    "STRESS",       "STRESSES",      "STRFIELD",    "SUBCOM",        "SUBSEQ",       "SUBTITLE",
+    "SUPER",        "SUPORT1",       "SURFACE",     "SVECTOR",       "SVELOCITY",    "THERMAL",
+    "TITLE",        "TSTEP",         "TSTEPNL",     "VARIABLE",      "VECTOR",       "VELOCITY",
+    "VOLUME",       "VUGRID",        "WEIGHTCHECK", "XTITLE",        "YTITLE"};
+
+// OptiStruct's lines before and within the case control.
+constexpr std::array<std::string_view, 23> kOptiStruct = {
+    "ANALYSIS", "CHECK",       "DGLOBAL", "FORMAT", "H3D",   "HISOUT",     "LISTMEM", "LOADLIB",
+    "MSGLMT",   "OSTDIST",     "OUTFILE", "OUTPUT", "PRINT", "RESPRINT",   "RESTART", "RESULTS",
+    "SCREEN",   "SENSITIVITY", "SENSOUT", "SHAPE",  "SHRES", "SYSSETTING", "TMPDIR"};
+
+// Those that change what is read.
+constexpr std::array<std::string_view, 2> kReadExecutive = {"CEND", "SOL"};
+constexpr std::array<std::string_view, 14> kReadCase = {
+    "ANALYSIS", "BEGIN",  "BGSET", "K2GG",  "K2PP", "LOAD",    "M2GG",
+    "M2PP",     "METHOD", "MPC",   "PARAM", "SPC",  "SUBCASE", "TEMPERATURE"};
 
 // NAME(OPTIONS) = VALUE, in capitals.
 struct Command {
@@ -91,17 +111,16 @@ class ControlParser {
         source_.unread();
         return {};
       }
-      if (command.name == "BEGIN") {
+      if (command.name == "BEGIN" || command.name == "BEGIN_BULK") {
         begin_bulk(command);
         return finish();
       }
       const std::string text(*line);
+      const char* kind = part_ == Part::kExecutive ? "executive" : "case control";
+      Content& content = refusals_.contents().count(kind, command.name, source_, source_.origin());
+      content.fate = Fate::kRefused;
       refusals_.attempt([&] {
-        if (part_ == Part::kExecutive) {
-          executive(command);
-        } else {
-          case_control(command, text);
-        }
+        content.fate = part_ == Part::kExecutive ? executive(command) : case_control(command, text);
       });
     }
     if (part_ == Part::kUnknown) return {};
@@ -119,26 +138,31 @@ class ControlParser {
                                      command.name) != kHarmlessExecutive.end();
     if (executive && !(command.assigned && command.name.starts_with("ECHO"))) {
       part_ = Part::kExecutive;
-    } else if (command.assigned || command.name == "SUBCASE" || command.name == "TITLE") {
+    } else if (command.assigned || command.name == "SUBCASE" || command.name == "TITLE" ||
+               std::find(kOptiStruct.begin(), kOptiStruct.end(), command.name) !=
+                   kOptiStruct.end()) {
       part_ = Part::kCase;
     }
-    return part_ != Part::kUnknown || command.name == "BEGIN";
+    return part_ != Part::kUnknown || command.name.starts_with("BEGIN");
   }
 
   void begin_bulk(const Command& command) {
-    if (command.value.empty() || command.value == "BULK") return;
+    if (command.value.empty() || command.value.starts_with("BULK")) return;
     source_.fail(source_.origin(),
                  fmt::format("found BEGIN {}, expected BEGIN BULK", shown(command.value)));
   }
 
-  void executive(const Command& command) {
+  Fate executive(const Command& command) {
     if (command.name == "CEND") {
       part_ = Part::kCase;
     } else if (command.name == "SOL") {
       solution(command.value);
-    } else if (!is_one_of(command.name, kHarmlessExecutive)) {
-      refuse(command.name, "executive statement");
+    } else if (is_one_of(command.name, kHarmlessExecutive)) {
+      return Fate::kPassed;
+    } else {
+      return refuse(command.name, "executive statement");
     }
+    return Fate::kRead;
   }
 
   void solution(std::string_view value) {
@@ -152,9 +176,9 @@ class ControlParser {
     }
   }
 
-  void case_control(const Command& command, const std::string& line) {
+  Fate case_control(const Command& command, const std::string& line) {
     control_.has_cases = true;
-    if (plots_ && command.name != "SUBCASE") return;
+    if (plots_ && command.name != "SUBCASE") return Fate::kPassed;
     if (command.name == "SUBCASE") {
       plots_ = false;
       control_.subcases.push_back({set_number(command), source_.origin(), above_});
@@ -162,13 +186,18 @@ class ControlParser {
       const std::string_view text = command.value;
       const size_t gap = std::min(text.find_first_of(", ="), text.size());
       const size_t value = std::min(text.find_first_not_of(", =", gap), text.size());
-      read_parameter(control_, text.substr(0, gap), text.substr(value), source_, source_.origin());
+      const std::string_view name = text.substr(0, gap);
+      if (!read_parameter(control_, name, text.substr(value), source_, source_.origin()))
+        return Fate::kPassed;
     } else if (!choose(command)) {
       if (is(command.name, "OUTPUT"))
-        plots_ = has_option(command, "PLOT") || has_option(command, "XYOUT");
+        plots_ = has_option(command, "PLOT") || has_option(command, "XY");
       if (command.name == "SET") skip_list(line);
-      if (!is_one_of(command.name, kHarmlessCase)) refuse(command.name, "case control command");
+      if (!is_one_of(command.name, kHarmlessCase) && !is_one_of(command.name, kOptiStruct))
+        return refuse(command.name, "case control command");
+      return Fate::kPassed;
     }
+    return Fate::kRead;
   }
 
   bool choose(const Command& command) {
@@ -180,13 +209,50 @@ class ControlParser {
     } else if (command.name == "LOAD") {
       choice.load = set_number(command);
     } else if (is(command.name, "METHOD")) {
-      choice.method = set_number(command);
+      if (!has_option(command, "FLUID")) choice.method = set_number(command);
+    } else if (command.name == "BGSET") {
+      control_.glue = set_number(command);
+    } else if (command.name == "K2GG" || command.name == "K2PP") {
+      add_direct(command, control_.direct_stiffness);
+    } else if (command.name == "M2GG" || command.name == "M2PP") {
+      add_direct(command, control_.direct_mass);
+    } else if (is(command.name, "ANALYSIS") && command.value.starts_with("STAT")) {
+      choice.analysis = 101;
+    } else if (is(command.name, "ANALYSIS") && command.value.starts_with("MODE")) {
+      choice.analysis = 103;
     } else if (is(command.name, "TEMPERATURE")) {
       temperature(command, choice);
     } else {
       return false;
     }
     return true;
+  }
+
+  // NAME, or 0.5*NAME, 2.*OTHER.
+  void add_direct(const Command& command, std::map<std::string, double>& names) {
+    std::string_view rest = command.value;
+    while (!rest.empty()) {
+      const size_t comma = std::min(rest.find(','), rest.size());
+      std::string_view name = trimmed(rest.substr(0, comma));
+      rest = rest.substr(std::min(comma + 1, rest.size()));
+      double factor = 1.0;
+      if (const size_t star = name.find('*'); star != std::string_view::npos) {
+        const auto number = to_number(trimmed(name.substr(0, star)));
+        if (!number) refuse_direct(command);
+        factor = *number;
+        name = trimmed(name.substr(star + 1));
+      }
+      if (name.empty() || name.find_first_of("() ") != std::string_view::npos)
+        refuse_direct(command);
+      names[std::string(name)] += factor;
+    }
+  }
+
+  [[noreturn]] void refuse_direct(const Command& command) {
+    source_.fail(
+        source_.origin(),
+        fmt::format("{}: found {}, expected names of DMIG, each with a real factor or none",
+                    command.name, shown(command.value)));
   }
 
   void temperature(const Command& command, Choice& choice) {
@@ -220,8 +286,8 @@ class ControlParser {
     }
   }
 
-  void refuse(const std::string& name, const char* kind) {
-    if (ignore_.skips(name)) return;
+  Fate refuse(const std::string& name, const char* kind) {
+    if (ignore_.skips(name)) return Fate::kIgnored;
     source_.fail(source_.origin(), fmt::format("{} {} is not supported; ignore = [\"{}\"] skips it",
                                                kind, shown(name), name));
   }
@@ -249,15 +315,50 @@ Control read_control(Source& source, Ignore& ignore, Refusals& refusals) {
   return ControlParser(source, ignore, refusals).run();
 }
 
-void read_parameter(Control& control, std::string_view name, std::string_view value,
+std::vector<Listed> listed_commands() {
+  const auto is_read = [](std::string_view name) {
+    return std::ranges::count(kReadExecutive, name) + std::ranges::count(kReadCase, name) > 0;
+  };
+  std::vector<Listed> rows;
+  const auto list = [&](const auto& names, Fate fate, const char* where) {
+    for (const std::string_view name : names)
+      if (fate == Fate::kRead || !is_read(name)) rows.push_back({std::string(name), fate, where});
+  };
+  list(kReadExecutive, Fate::kRead, "executive");
+  list(kHarmlessExecutive, Fate::kPassed, "executive");
+  list(kReadCase, Fate::kRead, "case control; four letters suffice");
+  list(kHarmlessCase, Fate::kPassed, "case control; four letters suffice");
+  list(kOptiStruct, Fate::kPassed, "OptiStruct");
+  return rows;
+}
+
+bool read_parameter(Control& control, std::string_view name, std::string_view value,
                     const Source& source, Origin origin) {
-  if (name != "WTMASS") return;
-  const auto factor = to_number(value);
-  if (!factor || !(*factor > 0.0)) {
-    source.fail(origin,
-                fmt::format("PARAM WTMASS: found {}, expected a positive number", shown(value)));
+  const auto number = [&] {
+    const auto found = to_number(value);
+    if (!found)
+      source.fail(origin, fmt::format("PARAM {}: found {}, expected a number", name, shown(value)));
+    return *found;
+  };
+  if (name == "WTMASS") {
+    const auto factor = to_number(value);
+    if (!factor || !(*factor > 0.0)) {
+      source.fail(origin,
+                  fmt::format("PARAM WTMASS: found {}, expected a positive number", shown(value)));
+    }
+    control.mass_factor = *factor;
+  } else if (name == "COUPMASS") {
+    control.coupled_mass = number() > 0.0;
+  } else if (name == "CK2") {
+    control.direct_stiffness_factor = number();
+  } else if (name == "CM2") {
+    control.direct_mass_factor = number();
+  } else if (name == "INREL") {
+    control.inertia_relief = number() != 0.0;
+  } else {
+    return false;
   }
-  control.mass_factor = *factor;
+  return true;
 }
 
 }  // namespace clatter::mesh::deck::nastran

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "mesh/deck/nastran/replication.hpp"
 
 namespace clatter::mesh::deck::nastran {
 namespace {
@@ -18,7 +19,7 @@ constexpr size_t kLongestFileName = 4096;
 bool starts_with_word(std::string_view line, std::string_view word) {
   if (line.size() < word.size()) return false;
   for (size_t i = 0; i < word.size(); ++i) {
-    if ((line[i] & ~0x20) != word[i]) return false;
+    if ((line[i] & ~0x20) != (word[i] & ~0x20)) return false;
   }
   return true;
 }
@@ -62,6 +63,14 @@ class CardReader {
     if (follow_include(source_, text)) return true;
     text = without_comment(text);
     if (text.empty()) return true;
+    if (starts_with_word(text, "BEGIN ")) {
+      finish();
+      join_waiting();
+      waiting_.clear();
+      orphans_.clear();
+      sink_.begin_section(trimmed(text), source_.origin());
+      return true;
+    }
     end_.end_data = starts_with_word(text, "ENDDATA");
     if (!end_.end_data) take(text);
     return !end_.end_data;
@@ -71,7 +80,15 @@ class CardReader {
     const Origin origin = source_.origin();
     const std::string trouble = split_line(line, fields_);
     if (!trouble.empty()) source_.fail(origin, trouble);
+    if (Replication::is_replication(fields_)) {
+      std::string wrong;
+      const std::vector<std::string> lines = replication_.expand(fields_, wrong);
+      if (!wrong.empty()) source_.fail(origin, wrong);
+      for (const std::string& one : lines) take(one);
+      return;
+    }
     if (!fields_.continuation) {
+      replication_.remember(line);
       finish();
       current_.start(fields_, origin);
       most_ = sink_.begin(current_.name(), origin);
@@ -152,6 +169,7 @@ class CardReader {
   Refusals& refusals_;
   CardsEnd end_;
   LineFields fields_;
+  Replication replication_;
   Card current_;
   size_t most_ = 0;
   bool orphan_ = false;

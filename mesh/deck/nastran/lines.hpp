@@ -25,6 +25,8 @@ class CardSink {
   virtual void card(const Card& card) = 0;
   /// A comment line from its $ on.
   virtual void comment(std::string_view line, Origin origin) = 0;
+  /// A BEGIN SUPER = n: cards of another part follow, with numbers of their own.
+  virtual void begin_section(std::string_view line, Origin origin) = 0;
 };
 
 /// The result of reading cards.

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,24 +13,57 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr size_t kMostPressures = 10'000;  // surfaces of one load set
+
 }  // namespace
 
 void Loads::build_surfaces() {
   for (const auto& [id, set] : raw_.loads) {
-    std::map<double, std::string>& names = pressure_names_[id];
-    for (const RawPressure& pressure : set.pressures) names[pressure.value];
-    size_t count = 0;
-    for (auto& [value, name] : names) {
-      name = names.size() == 1 ? fmt::format("pload4_{}", id)
-                               : fmt::format("pload4_{}_{}", id, ++count);
-    }
-    std::map<double, SurfaceBuilder> surfaces;
+    std::map<double, SurfaceBuilder> surfaces;  // by pressure: compression is positive
+    const auto add = [&, this](const RawPressure& pressure, const LoadedFace& face, double value) {
+      surfaces[value].add(face.type, face.nodes);
+      if (surfaces.size() > kMostPressures)
+        model_.source.fail(pressure.origin, fmt::format("load set {}: found more than {} different "
+                                                        "pressures",
+                                                        id, kMostPressures));
+    };
+    const auto push = [&, this, of = id](const RawPressure& pressure, const LoadedFace& face,
+                                         double sign) {
+      for (Step::NodalForce force : forces_on_face(model_, pressure, face)) {
+        force.value *= sign;
+        face_forces_[of].push_back(std::move(force));
+      }
+    };
     for (const RawPressure& pressure : set.pressures) {
-      add_face(model_, pressure, surfaces[pressure.value]);
+      if (pressure.cell == 0) {
+        const LoadedFace face = face_of_grids(model_, pressure);
+        if (face.on_solid)
+          add(pressure, face, face.outward ? -pressure.values[0] : pressure.values[0]);
+        else
+          push(pressure, face, -1.0);  // along the normal
+        continue;
+      }
+      const LoadedFace face = face_of_cell(model_, pressure);
+      if (!pressure.varies() && !pressure.along_vector()) {
+        add(pressure, face, pressure.values[0]);
+        continue;
+      }
+      push(pressure, face, 1.0);
     }
-    for (const auto& [value, surface] : surfaces) {
-      model_.deck.mesh.surfaces[names[value]] = surface.finish();
-    }
+    for (const RawSkinPressure& raw : set.on_skins)
+      for (const LoadedFace& face : faces_of_skins(model_, raw))
+        add({.origin = raw.origin}, face, face.outward ? -raw.value : raw.value);
+    name_surfaces(id, surfaces);
+  }
+}
+
+void Loads::name_surfaces(int32_t id, const std::map<double, SurfaceBuilder>& surfaces) {
+  size_t count = 0;
+  for (const auto& [value, surface] : surfaces) {
+    std::string& name = pressure_names_[id][value];
+    name = surfaces.size() == 1 ? fmt::format("pload4_{}", id)
+                                : fmt::format("pload4_{}_{}", id, ++count);
+    model_.deck.mesh.surfaces[name] = surface.finish();
   }
 }
 
@@ -66,6 +101,12 @@ void Loads::list_set(Step& step, int32_t id, double factor, Origin origin) {
   if (!step.acceleration.allFinite()) {
     model_.source.fail(at->second.origin, "GRAV: its numbers are too large");
   }
+  if (const auto forces = face_forces_.find(id); forces != face_forces_.end())
+    for (Step::NodalForce force : forces->second) {
+      model_.spend(64, origin);
+      force.value *= factor;
+      step.forces.push_back(std::move(force));
+    }
   for (const auto& [value, name] : pressure_names_[id]) {
     model_.spend(128, origin);
     step.pressures.push_back({name, factor * value});
@@ -101,6 +142,10 @@ void Loads::list_rotation(Step& step, const RawRotation& raw, double factor) {
 void Loads::list_force(Step& step, const RawForce& raw, double factor) {
   const NodeIndex node_index = model_.find(raw.grid, raw.origin);
   const char* card = raw.moment ? "MOMENT" : "FORCE";
+  if (node_index < 0 && model_.is_lost(raw.grid)) {
+    ++model_.lost_loads;
+    return;
+  }
   if (node_index < 0) {
     model_.source.fail(
         raw.origin, fmt::format("{}: grid {} belongs to no solid and no coupling", card, raw.grid));
@@ -109,10 +154,7 @@ void Loads::list_force(Step& step, const RawForce& raw, double factor) {
     model_.source.fail(raw.origin,
                        fmt::format("MOMENT: node {} of solids has no rotations", raw.grid));
   }
-  const Vector3d force =
-      factor *
-      (model_.systems.directions(raw.system, model_.node_map.position(node_index), raw.origin) *
-       vector(raw.vector));
+  const Vector3d force = factor * vector_of(raw, node_index);
   for (int k = 0; k < 3; ++k) {
     if (!std::isfinite(force[k])) {
       model_.source.fail(raw.origin, fmt::format("{}: its numbers are too large", card));
@@ -121,6 +163,26 @@ void Loads::list_force(Step& step, const RawForce& raw, double factor) {
     model_.spend(64, raw.origin);
     step.forces.push_back({node_index, (raw.moment ? 3 : 0) + k, force[k], {}});
   }
+}
+
+Vector3d Loads::vector_of(const RawForce& raw, NodeIndex node_index) const {
+  if (raw.along[0] == 0)
+    return model_.systems.directions(raw.system, model_.node_map.position(node_index), raw.origin) *
+           vector(raw.vector);
+  const auto arrow = [&](size_t from) -> Vector3d {
+    std::array<Vector3d, 2> at;
+    for (size_t k = 0; k < 2; ++k) {
+      const int32_t row = model_.grids.find(raw.along[from + k]);
+      if (row < 0)
+        model_.source.fail(raw.origin, fmt::format("found no GRID {}", raw.along[from + k]));
+      at[k] = vector(raw_.grids.at[static_cast<size_t>(row)]);
+    }
+    return at[1] - at[0];
+  };
+  const Vector3d along = raw.along[2] == 0 ? arrow(0) : arrow(0).cross(arrow(2));
+  if (!(along.norm() > 0.0))
+    model_.source.fail(raw.origin, "expected grids that define a direction");
+  return raw.magnitude * along.normalized();
 }
 
 void Loads::list_temperature(Step& step, int32_t id, Origin origin) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// FORCE, MOMENT, PLOAD4, GRAV, RFORCE, LOAD, TEMP, TEMPD: the loads of sets.
+// FORCE, MOMENT, PLOAD, PLOAD2, PLOAD4, GRAV, RFORCE, LOAD, TEMP, TEMPD: the loads of sets.
 #include <cstdint>
 #include <map>
 #include <set>
@@ -27,6 +27,8 @@ class Loads {
  private:
   void list_set(Step& step, int32_t id, double factor, Origin origin);
   void list_force(Step& step, const RawForce& raw, double factor);
+  void name_surfaces(int32_t id, const std::map<double, SurfaceBuilder>& surfaces);
+  Eigen::Vector3d vector_of(const RawForce& raw, NodeIndex node_index) const;
   void list_gravity(Step& step, const RawGravity& raw, double factor);
   void list_rotation(Step& step, const RawRotation& raw, double factor);
   RowMatrix temperatures(int32_t id, const TemperatureSet& set);
@@ -34,6 +36,7 @@ class Loads {
   Model& model_;
   const RawDeck& raw_;
   std::map<int32_t, std::map<double, std::string>> pressure_names_;  // by load set and value
+  std::map<int32_t, std::vector<Step::NodalForce>> face_forces_;     // by load set
 };
 
 }  // namespace clatter::mesh::deck::nastran

@@ -27,8 +27,9 @@ class Completer {
         int32_t& middle = block.nodes[first + static_cast<size_t>(cell.corners) + e];
         if (middle != kNoRow) continue;
         const auto [a, b] = cell.edges[e];
-        middle = between(block.nodes[first + static_cast<size_t>(a)],
-                         block.nodes[first + static_cast<size_t>(b)]);
+        const int32_t i = block.nodes[first + static_cast<size_t>(a)],
+                      j = block.nodes[first + static_cast<size_t>(b)];
+        middle = i == j ? i : between(i, j);  // an edge without length, of repeated corners
       }
   }
 

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 namespace clatter::mesh::deck::nastran {
 namespace {
@@ -39,8 +41,22 @@ IdIndex grid_index(const Grids& grids, const Source& source) {
   return index;
 }
 
+// A scalar point is a point at the origin that moves along x alone.
+void add_scalar_points(RawDeck& raw) {
+  constexpr DofMask kAllButX = kAllDofs & ~DofMask{1};
+  Grids& grids = raw.grids;
+  for (const int32_t id : raw.scalar_points) {
+    grids.ids.push_back(id);
+    grids.at.push_back({});
+    grids.origins.push_back(0);
+    grids.held.resize(grids.size());
+    grids.held.back() = kAllButX;
+  }
+}
+
 RawDeck with_defaults(RawDeck raw) {
   fill_defaults(raw);
+  add_scalar_points(raw);
   return raw;
 }
 
@@ -72,6 +88,37 @@ NodeIndex Model::require_row(size_t row, Origin origin) {
 
 NodeIndex Model::require(int32_t grid, Origin origin) {
   return require_row(row_of(grid, origin), origin);
+}
+
+bool Model::is_lost(int32_t grid) const {
+  return std::binary_search(raw.lost_grids.begin(), raw.lost_grids.end(), grid);
+}
+
+NodeIndex Model::add_point(const Eigen::Vector3d& at, Origin origin) {
+  Grids& table = raw.grids;
+  const int32_t largest = *std::max_element(table.ids.begin(), table.ids.end());
+  if (largest == std::numeric_limits<int32_t>::max())
+    source.fail(origin, "found no free number above the largest GRID");
+  spend(64, origin);
+  table.ids.push_back(largest + 1);
+  table.at.push_back({at[0], at[1], at[2]});
+  table.origins.push_back(origin);
+  return node_map.add_row();
+}
+
+int Model::direction_at(int32_t grid, int direction, Origin origin) const {
+  const bool scalar = raw.scalar_points.contains(grid);
+  if (scalar && direction <= 0) return 0;
+  if (!scalar && direction >= 0) return direction;
+  if (scalar)
+    source.fail(origin,
+                fmt::format("found a component of scalar point {}, expected 0 or none", grid));
+  source.fail(origin, fmt::format("C: found nothing for grid {}, expected one digit 1 to 6", grid));
+}
+
+const BoundaryFaces& Model::boundary() {
+  if (!boundary_) boundary_ = boundary_faces(deck.mesh);
+  return *boundary_;
 }
 
 NodeIndex Model::find(int32_t grid, Origin origin) const {
@@ -110,8 +157,38 @@ void add_term(std::vector<Equation::Term>& terms, NodeIndex node_index, int dire
 }
 
 void count_unused(Model& model) {
-  const int64_t unused = model.node_map.unused();
+  int64_t scalars = 0;
+  for (const int32_t id : model.raw.scalar_points)
+    scalars += model.find(id, 0) == NodeMap::kNone ? 1 : 0;
+  const int64_t unused = model.node_map.unused() - scalars;
   if (unused > 0) model.deck.ignored["GRID (of no solid and no coupling)"] = unused;
+  if (scalars > 0) model.deck.ignored["SPOINT (of no spring, mass or equation)"] = scalars;
+}
+
+void pass_damping(Model& model) {
+  for (const auto& [field, found] : model.raw.damping)
+    model.refusals.contents().pass("field", field, model.source, found.origin, "damping",
+                                   found.count);
+}
+
+void choose_mass(Model& model) {
+  const bool analysis = !model.raw.solids.empty() && !model.raw.materials.empty();  // no mere mesh
+  if (analysis && !model.raw.control.coupled_mass) model.deck.mass = MassForm::kLumped;
+}
+
+void note_solution(Model& model) {
+  const Control& control = model.raw.control;
+  const std::string& deck = model.source.files().front();
+  constexpr std::array kNonlinear = {106, 129, 153, 400, 401, 402, 600, 601, 700, 701};
+  if (std::ranges::count(kNonlinear, control.solution) > 0)
+    model.deck.notes.push_back(
+        fmt::format("{}: SOL {} is nonlinear: the linear model of the part without load is read",
+                    deck, control.solution));
+  if (control.inertia_relief)
+    model.deck.notes.push_back(
+        fmt::format("{}: PARAM INREL: supports are those of SPC alone; clatter-modal statics "
+                    "balances a free part by its inertia",
+                    deck));
 }
 
 }  // namespace clatter::mesh::deck::nastran

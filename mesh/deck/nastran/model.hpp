@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Builds the Deck from the cards: shared state, and the functions in call order.
+#include <optional>
+#include <span>
+
+#include "core/mesh/boundary.hpp"
 #include "mesh/deck/id_index.hpp"
+#include "mesh/deck/ignore.hpp"
 #include "mesh/deck/nastran/node_map.hpp"
 #include "mesh/deck/nastran/raw_deck.hpp"
 #include "mesh/deck/nastran/systems.hpp"
@@ -20,6 +25,14 @@ class Model {
   NodeIndex require(int32_t grid, Origin origin);
   /// Node index of a grid; -1 if it has none. InputError if there is no such GRID.
   NodeIndex find(int32_t grid, Origin origin) const;
+  /// True for a grid of cells that the user ignores.
+  bool is_lost(int32_t grid) const;
+  /// A new point, numbered above all grids.
+  NodeIndex add_point(const Eigen::Vector3d& at, Origin origin);
+  /// Direction 0 to 5 of a grid, 0 of a scalar point. InputError when a grid has kScalar.
+  int direction_at(int32_t grid, int direction, Origin origin) const;
+  /// Boundary faces of the mesh; made at the first call.
+  const BoundaryFaces& boundary();
   /// Node indices of a list, never -1; skips grids without one, and missing ones within a THRU.
   /// `make_points`: like require().
   std::vector<NodeIndex> node_indices(const IdList& list, Origin origin, bool make_points);
@@ -37,14 +50,17 @@ class Model {
   IdIndex grids;  // row of a GRID
   Systems systems;
   Deck deck;
-  NodeMap node_map;  // empty until the mesh is built
-  IdIndex cells;     // numbered across all blocks of the mesh
+  NodeMap node_map;              // empty until the mesh is built
+  IdIndex cells;                 // numbered across all blocks of the mesh
+  std::optional<IdIndex> skins;  // row of a two-dimensional cell in raw.skins; made when needed
+  int64_t lost_loads = 0;        // forces on grids of ignored cells
 
  private:
   size_t row_of(int32_t grid, Origin origin) const;
   NodeIndex require_row(size_t row, Origin origin);
 
   int64_t effort_ = 0;
+  std::optional<BoundaryFaces> boundary_;
 };
 
 /// Cells, nodes, regions. Grids without cells get no node index yet.
@@ -57,14 +73,27 @@ void build_regions(Model& model, const std::vector<int32_t>& properties);
 /// MAT1, MAT9 -> Deck::materials. Name of the material; empty when the deck has none at all.
 /// InputError at `origin` if it is missing.
 std::string use_material(Model& model, int32_t id, Origin origin);
-/// RBE2, RBE3: their grids get node indices.
+/// RBE2, RBE3 and what is the same: their grids get node indices.
 void build_couplings(Model& model);
+/// RBAR, RBE1 with independent DoFs at several grids, RROD -> equations.
+void build_links(Model& model);
 /// CONM2.
 void build_masses(Model& model);
 /// MPC of the chosen set.
 void build_equations(Model& model);
-/// CELAS1, CELAS2 with their PELAS.
+/// CELAS, CMASS with their PELAS, PMASS.
 void build_springs(Model& model);
+/// CBUSH with their PBUSH -> springs.
+void build_bushes(Model& model);
+/// CONM1 and the DMIG of K2GG and M2GG.
+void build_matrices(Model& model);
+/// BGSET -> ties.
+void build_glue(Model& model);
+/// CQUAD4 and the like: faces of solids -> Mesh::surfaces; others are refused, or left out by the
+/// user.
+void build_skins(Model& model, Ignore& ignore);
+/// What hangs on grids of ignored cells alone: refused together, or dropped by the user.
+void drop_loose(Model& model, Ignore& ignore);
 /// SPC, permanent constraints, ASET.
 void build_supports(Model& model);
 /// The supports of an SPC set (or SPCADD).
@@ -77,13 +106,46 @@ void build_surfaces(Model& model);
 void build_initial_temperature(Model& model);
 /// Subcases with their loads.
 void build_steps(Model& model);
-/// Adds the face of a PLOAD4 to a surface.
-void add_face(Model& model, const RawPressure& raw, SurfaceBuilder& surface);
+/// A face that a load acts on.
+struct LoadedFace {
+  FaceType type = FaceType::kTri3;
+  std::array<int32_t, kMaxFaceNodes> nodes{};  // outward
+  int first = 0;                               // the corner that is G1
+  bool outward = true;   // the right-hand normal of the card's grids, if it lists all
+  bool on_solid = true;  // else only its corners belong to solids: of PLOAD
+};
+
+/// The face of a cell that G1 and G3 or G4 of PLOAD4 define.
+LoadedFace face_of_cell(Model& model, const RawPressure& raw);
+/// The face of a cell with three of its corners.
+LoadedFace face_of_corners(Model& model, const RawPressure& raw,
+                           const std::array<int32_t, 3>& grids);
+/// The face on the grids of a PLOAD, on a solid or not.
+LoadedFace face_of_grids(Model& model, const RawPressure& raw);
+/// The face of a solid on the boundary with these corners, if there is one.
+std::optional<LoadedFace> boundary_face(Model& model, std::span<const int32_t> grids,
+                                        Origin origin);
+/// The faces of solids on which two-dimensional cells of these numbers lie.
+std::vector<LoadedFace> faces_of_skins(Model& model, const RawSkinPressure& raw);
+/// Forces on the nodes of a pressure that varies over a face or acts along a vector.
+std::vector<Step::NodalForce> forces_on_face(Model& model, const RawPressure& raw,
+                                             const LoadedFace& face);
+
 /// Adds a term unless its coefficient is 0.
 void add_term(std::vector<Equation::Term>& terms, NodeIndex node_index, int direction,
               double coefficient);
+/// Terms of `factor` times the displacement (direction 0 to 2) or rotation (3 to 5) of a grid along
+/// its own axes. The largest one is the first, which in an equation is the dependent one.
+std::vector<Equation::Term> terms_along(Model& model, NodeIndex node_index, int direction,
+                                        double factor, Origin origin);
 /// Notes which grids were skipped.
 void count_unused(Model& model);
+/// Lumped without PARAM, COUPMASS, as Nastran has it.
+void choose_mass(Model& model);
+/// Damping of springs is passed over.
+void pass_damping(Model& model);
+/// A remark: what the solution changes.
+void note_solution(Model& model);
 
 template <class Body>
 void Model::for_each_grid(const IdList& list, Origin origin, const Body& body) {

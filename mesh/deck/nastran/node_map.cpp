@@ -23,6 +23,11 @@ NodeIndex NodeMap::require(size_t row) {
   return node_index;
 }
 
+NodeIndex NodeMap::add_row() {
+  index_of_row_.push_back(kNone);
+  return require(index_of_row_.size() - 1);
+}
+
 Eigen::Vector3d NodeMap::position(NodeIndex node_index) const {
   if (is_point(node_index)) return deck_.points[static_cast<size_t>(node_index - node_count_)].at;
   return deck_.mesh.nodes.row(node_index).transpose();

@@ -22,6 +22,8 @@ class NodeMap {
 
   /// The node index of a row; a grid without cells becomes a point when requested.
   NodeIndex require(size_t row);
+  /// Makes the last row, which is new, a point.
+  NodeIndex add_row();
   /// The same, kNone for a grid without cells that nothing else requested.
   NodeIndex find(size_t row) const { return index_of_row_[row]; }
   /// Row of a node index.

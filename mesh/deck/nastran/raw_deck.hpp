@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace clatter::mesh::deck::nastran {
 inline constexpr int32_t kBlank = 0, kZero = -2;
 inline constexpr int32_t kNoRow = -1;  // of a mid-side node that the card omits
 inline constexpr DofMask kNoneHeld = 0x80;
+inline constexpr int kScalar = -1;  // direction of a scalar point, which has no component
 
 /// GRID cards, as columns. Columns that no card uses so far are empty or short (column_at).
 struct Grids {
@@ -62,6 +64,22 @@ struct RawSystem {
   std::array<double, 9> points{};  // A, B, C
 };
 
+/// CTRIA3, CTRIA6, CTRIAR, CQUAD4, CQUAD8, CQUADR: a face of solids, or a shell.
+struct RawSkin {
+  std::string kind;
+  FaceType type = FaceType::kTri3;
+  int32_t id = 0, property = 0;
+  Origin origin = 0;
+  std::array<int32_t, kMaxFaceNodes> grids{};
+};
+
+struct RawShell {  // PSHELL, PCOMP, PCOMPG
+  Origin origin = 0;
+  std::string card;
+  int32_t material = 0;    // 0: none
+  double thickness = 0.0;  // 0: not known
+};
+
 struct RawSolid {  // PSOLID
   Origin origin = 0;
   int32_t material = 0;
@@ -78,12 +96,25 @@ struct RawMaterial {
   std::vector<double> expansion;
 };
 
-struct RawRigid {  // RBE2
+struct RawRigid {    // RBE2, and what is the same
+  std::string name;  // "rbe2_5"
   int32_t id = 0;
   Origin origin = 0;
   int32_t reference = 0;
   DofMask dofs = 0;
   IdList dependents;
+};
+
+/// RBAR, RBE1 with independent DoFs at several grids, RROD.
+struct RawLink {
+  struct End {
+    int32_t grid = 0;
+    DofMask dofs = 0;
+  };
+  std::string name;  // "rbar_5"
+  Origin origin = 0;
+  std::vector<End> independent, dependent;
+  bool along_only = false;  // RROD: its length is constant, no more
 };
 
 struct RawDistributing {  // RBE3
@@ -100,6 +131,7 @@ struct RawDistributing {  // RBE3
 };
 
 struct RawMass {  // CONM2
+  int32_t id = 0;
   Origin origin = 0;
   int32_t grid = 0, system = 0;
   double mass = 0.0;
@@ -107,18 +139,74 @@ struct RawMass {  // CONM2
   std::array<double, 6> inertia{};  // I11 I21 I22 I31 I32 I33
 };
 
-struct RawSpring {  // CELAS1, CELAS2
+struct RawMassMatrix {  // CONM1
+  Origin origin = 0;
+  int32_t grid = 0, system = 0;
+  std::array<double, 21> lower{};  // M11 M21 M22 M31 ... M66
+};
+
+struct RawSpring {  // CELAS1 to CELAS4, CMASS1 to CMASS4
   struct End {
     int32_t grid = 0;
     int direction = 0;
   };
   Origin origin = 0;
-  int32_t property = 0;  // PELAS; 0: own stiffness
-  double stiffness = 0.0;
+  bool is_mass = false;
+  int32_t property = 0;   // PELAS or PMASS; 0: own value
+  double value = 0.0;     // stiffness or mass
   std::vector<End> ends;  // one: against the ground
 };
 
-/// SPC, SPC1, ASET, ASET1, BSET, BSET1.
+struct RawBush {  // CBUSH
+  Origin origin = 0;
+  int32_t id = 0, property = 0;
+  std::array<int32_t, 2> grids{};  // the second 0: the ground
+  int32_t orientation_grid = 0;    // GO
+  std::array<double, 3> orientation{};
+  int32_t system = -1;         // CID
+  double share = 0.5;          // S: position of the springs from GA to GB
+  int32_t offset_system = -1;  // OCID; -1: S counts
+  std::array<double, 3> offset{};
+};
+
+struct RawBushProperty {  // PBUSH
+  Origin origin = 0;
+  std::array<double, 6> stiffness{};
+};
+
+/// DMIG of one name.
+struct RawDirect {
+  struct Entry {
+    int32_t grid[2];
+    int direction[2];  // of column and row
+    double value;
+  };
+  static constexpr int kSymmetric = 6, kComplex = -1, kUsed = -2;
+  Origin origin = 0;
+  int form = 0;  // IFO, or kComplex; 0: no header
+  std::vector<Entry> entries;
+};
+
+struct RawGlue {  // BGSET
+  struct Pair {
+    int32_t source = 0, target = 0;
+    double distance = -1.0;
+  };
+  Origin origin = 0;
+  std::vector<Pair> pairs;
+};
+
+struct RawFaces {  // BSURFS
+  struct Face {
+    int32_t cell = 0;
+    std::array<int32_t, 3> corners{};
+    Origin origin = 0;
+  };
+  Origin origin = 0;
+  std::vector<Face> faces;
+};
+
+/// SPC, SPC1, ASET, ASET1, BSET, BSET1, CSET, CSET1.
 struct RawHold {
   int32_t set = 0;
   Origin origin = 0;
@@ -138,18 +226,28 @@ struct RawEquation {  // MPC
   std::vector<Term> terms;
 };
 
-struct RawForce {  // FORCE, MOMENT
+struct RawForce {  // FORCE, MOMENT; FORCE1, FORCE2, MOMENT1, MOMENT2
   Origin origin = 0;
   int32_t grid = 0, system = 0;
   bool moment = false;
   std::array<double, 3> vector{};
+  std::array<int32_t, 4> along{};  // of FORCE1: from the first grid to the second;
+                                   // of FORCE2: (second - first) x (fourth - third)
+  double magnitude = 0.0;          // of these
 };
 
-struct RawPressure {  // PLOAD4
+struct RawPressure {  // PLOAD4; PLOAD, PLOAD2
   Origin origin = 0;
-  int32_t cell = 0;
-  double value = 0.0;
-  int32_t g1 = 0, g34 = 0;  // 0: blank
+  int32_t cell = 0;                  // of PLOAD 0
+  std::array<double, 4> values{};    // at the corners from G1 on
+  int32_t g1 = 0, g34 = 0;           // 0: blank
+  std::array<int32_t, 4> corners{};  // of PLOAD, in the order that gives its direction
+  int32_t system = 0;
+  std::array<double, 3> direction{};  // zero: along the normal
+  bool varies() const {
+    return values[1] != values[0] || values[2] != values[0] || values[3] != values[0];
+  }
+  bool along_vector() const { return direction != std::array<double, 3>{}; }
 };
 
 struct RawGravity {
@@ -165,9 +263,16 @@ struct RawRotation {  // RFORCE
   std::array<double, 3> axis{};  // unit vector in the system
 };
 
+struct RawSkinPressure {  // PLOAD2; PLOAD4 of two-dimensional cells
+  Origin origin = 0;
+  double value = 0.0;
+  IdRange cells;
+};
+
 /// All cards of one load set.
 struct LoadSet {
   Origin origin = 0;
+  std::vector<RawSkinPressure> on_skins;
   std::vector<RawForce> forces;
   std::vector<RawPressure> pressures;
   std::vector<RawGravity> gravity;
@@ -213,12 +318,25 @@ struct RawDeck {
   std::map<std::pair<CellType, int32_t>, size_t> block_index;  // by type and property
   std::map<int32_t, RawSystem> systems;
   std::map<int32_t, RawSolid> solids;
+  std::vector<RawSkin> skins;
+  std::map<int32_t, RawShell> shells;
   std::map<int32_t, RawMaterial> materials;
   std::vector<RawRigid> rigid;
   std::vector<RawDistributing> distributing;
+  std::vector<RawLink> links;
   std::vector<RawMass> masses;
-  std::vector<RawSpring> springs;
-  std::map<int32_t, double> spring_stiffness;   // PELAS
+  std::vector<RawMassMatrix> mass_matrices;
+  std::vector<RawSpring> springs;              // and scalar masses
+  std::map<int32_t, double> spring_stiffness;  // PELAS
+  std::map<int32_t, double> scalar_masses;     // PMASS
+  std::vector<RawBush> bushes;
+  std::map<int32_t, RawBushProperty> bush_properties;
+  std::map<std::string, RawDirect> direct;                           // DMIG by name
+  std::set<int32_t> scalar_points;                                   // SPOINT
+  std::map<int32_t, RawGlue> glue;                                   // BGSET by set
+  std::map<int32_t, RawFaces> faces;                                 // BSURFS by number
+  std::map<int32_t, std::string> other_properties, other_materials;  // card of those not for solids
+  std::vector<int32_t> lost_grids;              // of cells that the user ignores
   std::map<int32_t, std::vector<RawHold>> spc;  // by set
   std::map<int32_t, SetSum> spc_sums, mpc_sums;
   std::map<int32_t, std::vector<RawEquation>> mpc;
@@ -228,6 +346,15 @@ struct RawDeck {
   std::map<int32_t, LoadSum> load_sums;
   std::map<int32_t, TemperatureSet> temperatures;
   std::map<int32_t, int32_t> eigen_counts;  // EIGRL, EIGR: number of modes, 0: not given
+  struct Damping {
+    Origin origin = 0;
+    int64_t count = 0;
+  };
+  std::map<std::string, Damping> damping;  // fields of springs, which are passed over
+
+  void count_damping(const std::string& field, Origin origin) {
+    ++damping.try_emplace(field, Damping{origin, 0}).first->second.count;
+  }
 
   // Content of "$ clatter" comments (writer.hpp).
   std::map<int32_t, std::string> region_names, set_names;

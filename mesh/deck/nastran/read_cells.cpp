@@ -168,9 +168,6 @@ void read_cell(const Card& card, RawDeck& raw) {
     const bool middle = static_cast<int>(i) >= cell.corners;
     if (middle && !has_node(card, kFirstNode + i)) continue;  // complete_cells() adds it
     const int32_t node = card.id(kFirstNode + i, "G");
-    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) {
-      card.fail(kFirstNode + i, fmt::format("cell {}: found node {} twice", id, node));
-    }
     nodes[static_cast<size_t>(cell.to_nastran[i])] = node;
   }
   for (int i = 0; i < cell.nodes; ++i) block.nodes.push_back(nodes[static_cast<size_t>(i)]);

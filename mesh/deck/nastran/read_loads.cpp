@@ -47,29 +47,94 @@ void read_force(const Card& card, RawDeck& raw) {
   load_set(card, raw).forces.push_back(force);
 }
 
+// SID G F G1 G2: along G1 to G2.
+void read_force1(const Card& card, RawDeck& raw) {
+  RawForce force;
+  force.origin = card.origin();
+  force.grid = card.id(1, "G");
+  force.magnitude = card.number(2, "F");
+  force.along = {card.id(3, "G1"), card.id(4, "G2"), 0, 0};
+  force.moment = card.name().starts_with("MOMENT");
+  card.at_most(5);
+  load_set(card, raw).forces.push_back(force);
+}
+
+// SID G F G1 G2 G3 G4: along (G1 to G2) x (G3 to G4).
+void read_force2(const Card& card, RawDeck& raw) {
+  RawForce force;
+  force.origin = card.origin();
+  force.grid = card.id(1, "G");
+  force.magnitude = card.number(2, "F");
+  force.along = {card.id(3, "G1"), card.id(4, "G2"), card.id(5, "G3"), card.id(6, "G4")};
+  force.moment = card.name().starts_with("MOMENT");
+  card.at_most(7);
+  load_set(card, raw).forces.push_back(force);
+}
+
+// SID P G1 G2 G3 G4: along the right-hand normal of G1 G2 G3.
+void read_pload(const Card& card, RawDeck& raw) {
+  RawPressure pressure;
+  pressure.origin = card.origin();
+  pressure.values.fill(card.number(1, "P"));
+  for (size_t k = 0; k < 3; ++k) pressure.corners[k] = card.id(2 + k, "G");
+  pressure.corners[3] = card.id_or(5, "G4", 0);
+  card.at_most(6);
+  load_set(card, raw).pressures.push_back(pressure);
+}
+
+// SID P EID1 EID2 ... of two-dimensional cells.
+void read_pload2(const Card& card, RawDeck& raw) {
+  LoadSet& set = load_set(card, raw);
+  const double value = card.number(1, "P");
+  for (const IdRange& range : card.ids(2, "EID"))
+    set.on_skins.push_back({card.origin(), value, range});
+}
+
+// EID THRU EID in fields 8 and 9: two-dimensional cells, along their own normals.
+bool is_on_skins(const Card& card) { return card.text(6) == "THRU" || card.blank(6); }
+
 void read_pload4(const Card& card, RawDeck& raw) {
   RawPressure pressure;
   pressure.origin = card.origin();
   pressure.cell = card.id(1, "EID");
-  pressure.value = card.number(2, "P1");
-  for (size_t i = 3; i < 6; ++i) {
-    if (card.number_or(i, "P", pressure.value) != pressure.value) {
-      card.fail(i,
-                fmt::format("found pressure {}, expected {} at every corner: pressures that vary "
-                            "over a face are not supported",
-                            card.text(i), pressure.value));
-    }
-  }
-  if (card.text(6) == "THRU") card.fail(6, "EID THRU EID is for shells, expected G1");
-  pressure.g1 = card.id(6, "G1");
-  pressure.g34 = card.id_or(7, "G3 or G4", 0);
-  for (size_t i = 9; i < 12; ++i) {
-    if (card.number_or(i, "N", 0.0) != 0.0) card.fail(i, "loads along a vector are not supported");
-  }
+  pressure.values.fill(card.number(2, "P1"));
+  for (size_t i = 1; i < 4; ++i)
+    pressure.values[i] = card.number_or(2 + i, "P", pressure.values[0]);
+  pressure.system = card.integer_or(8, "CID", 0);
+  for (size_t k = 0; k < 3; ++k) pressure.direction[k] = card.number_or(9 + k, "N", 0.0);
   if (!card.blank(12) && card.text(12) != "SURF") card.fail(12, "SORL: expected SURF");
   if (!card.blank(13) && card.text(13) != "NORM") card.fail(13, "LDIR: expected NORM");
   card.at_most(14);
-  load_set(card, raw).pressures.push_back(pressure);
+  LoadSet& set = load_set(card, raw);
+  if (is_on_skins(card)) {
+    if (pressure.varies() || pressure.along_vector())
+      card.fail(3,
+                "found a load along a vector or one that varies on a two-dimensional cell, "
+                "expected one pressure");
+    const int32_t last = card.id_or(7, "EID2", pressure.cell);
+    set.on_skins.push_back({card.origin(), pressure.values[0], {pressure.cell, last, 1, true}});
+    return;
+  }
+  pressure.g1 = card.id(6, "G1");
+  pressure.g34 = card.id_or(7, "G3 or G4", 0);
+  set.pressures.push_back(pressure);
+}
+
+// The same acceleration everywhere; one that varies is refused.
+void read_accel(const Card& card, RawDeck& raw) {
+  RawGravity gravity;
+  gravity.origin = card.origin();
+  gravity.system = system_number(card, 1);
+  const double value = card.number(9, "VAL1");
+  for (size_t i = 8; i < card.size(); i += 2) {
+    if (card.blank(i) && card.blank(i + 1)) continue;
+    card.number(i, "LOC");
+    if (card.number(i + 1, "VAL") != value)
+      card.fail(i + 1,
+                "accelerations that vary over the part are not supported, expected one: GRAV");
+  }
+  for (size_t k = 0; k < 3; ++k) gravity.vector[k] = value * card.number_or(2 + k, "N", 0.0);
+  load_set(card, raw).gravity.push_back(gravity);
 }
 
 void read_grav(const Card& card, RawDeck& raw) {

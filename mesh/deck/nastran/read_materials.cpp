@@ -63,4 +63,12 @@ void read_mat9(const Card& card, RawDeck& raw) {
   add_material(card, raw, material);
 }
 
+void read_other_property(const Card& card, RawDeck& raw) {
+  raw.other_properties[card.id(0, "PID")] = card.name();
+}
+
+void read_other_material(const Card& card, RawDeck& raw) {
+  raw.other_materials[card.id(0, "MID")] = card.name();
+}
+
 }  // namespace clatter::mesh::deck::nastran

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cards of springs.
+// Cards of springs, scalar masses and bushes.
 #include <fmt/format.h>
 
 #include <bit>
@@ -9,29 +9,52 @@
 namespace clatter::mesh::deck::nastran {
 namespace {
 
-void refuse_damping(const Card& card, size_t i) {
-  if (card.number_or(i, "GE", 0.0) != 0.0) {
-    card.fail(i, "damping of springs (GE) is not supported, expected 0");
-  }
+// Damping changes no stiffness.
+void pass_damping(const Card& card, size_t i, RawDeck& raw) {
+  if (card.number_or(i, "GE", 0.0) != 0.0) raw.count_damping("GE", card.origin());
 }
 
-// Both ends from field i on: G1, C1, G2, C2; an end without a grid is the ground.
-RawSpring ends_of(const Card& card, size_t i) {
+bool is_mass(const Card& card) { return card.name().starts_with("CMASS"); }
+
+RawSpring without_ends(const Card& card) {
   RawSpring spring;
   spring.origin = card.origin();
+  spring.is_mass = is_mass(card);
   card.id(0, "EID");
+  return spring;
+}
+
+// Both ends from field i on: G1, C1, G2, C2; an end without a grid is the ground. Scalar points
+// have no component.
+RawSpring ends_of(const Card& card, size_t i) {
+  RawSpring spring = without_ends(card);
   for (size_t end = 0; end < 2; ++end, i += 2) {
-    if (card.blank(i) && card.blank(i + 1)) continue;
-    const DofMask dof = card.components(i + 1, "C");
-    if (std::popcount(dof) != 1) card.fail_expected(i + 1, "C", "one digit");
-    spring.ends.push_back({card.id(i, "G"), std::countr_zero(dof)});
+    const bool grounded = card.blank(i) || card.text(i) == "0";
+    if (grounded && (card.blank(i + 1) || card.text(i + 1) == "0")) continue;
+    const DofMask dof = card.components_or_none(i + 1, "C");
+    if (std::popcount(dof) > 1) card.fail_expected(i + 1, "C", "one digit");
+    spring.ends.push_back({card.id(i, "G"), dof == 0 ? kScalar : std::countr_zero(dof)});
   }
   if (spring.ends.empty()) card.fail_expected(i - 4, "G1", "a grid");
   return spring;
 }
 
-void check_stiffness(const Card& card, size_t i, double stiffness) {
-  if (!(stiffness > 0.0)) card.fail_expected(i, "K", "a stiffness above 0");
+// S1 and S2.
+RawSpring points_of(const Card& card) {
+  RawSpring spring = without_ends(card);
+  for (const size_t i : {size_t{2}, size_t{3}})
+    if (!card.blank(i) && card.text(i) != "0") spring.ends.push_back({card.id(i, "S"), kScalar});
+  if (spring.ends.empty()) card.fail_expected(2, "S1", "a scalar point");
+  card.at_most(4);
+  return spring;
+}
+
+double value_of(const Card& card, size_t i, bool mass) {
+  const double value = card.number(i, mass ? "M" : "K");
+  if (!(value > 0.0)) {
+    card.fail_expected(i, mass ? "M" : "K", mass ? "a mass above 0" : "a stiffness above 0");
+  }
+  return value;
 }
 
 }  // namespace
@@ -45,9 +68,24 @@ void read_celas1(const Card& card, RawDeck& raw) {
 
 void read_celas2(const Card& card, RawDeck& raw) {
   RawSpring spring = ends_of(card, 2);
-  spring.stiffness = card.number(1, "K");
-  check_stiffness(card, 1, spring.stiffness);
-  refuse_damping(card, 6);
+  spring.value = value_of(card, 1, spring.is_mass);
+  if (spring.is_mass) {
+    card.at_most(6);
+  } else {
+    pass_damping(card, 6, raw);
+  }
+  raw.springs.push_back(std::move(spring));
+}
+
+void read_celas3(const Card& card, RawDeck& raw) {
+  RawSpring spring = points_of(card);
+  spring.property = card.id_or(1, "PID", card.id(0, "EID"));
+  raw.springs.push_back(std::move(spring));
+}
+
+void read_celas4(const Card& card, RawDeck& raw) {
+  RawSpring spring = points_of(card);
+  spring.value = value_of(card, 1, spring.is_mass);
   raw.springs.push_back(std::move(spring));
 }
 
@@ -55,12 +93,76 @@ void read_pelas(const Card& card, RawDeck& raw) {
   for (const size_t i : {size_t{0}, size_t{4}}) {
     if (i > 0 && card.blank_from(i)) break;
     const int32_t property = card.id(i, "PID");
-    const double stiffness = card.number(i + 1, "K");
-    check_stiffness(card, i + 1, stiffness);
-    refuse_damping(card, i + 2);
-    if (!raw.spring_stiffness.emplace(property, stiffness).second) {
+    pass_damping(card, i + 2, raw);
+    if (!raw.spring_stiffness.emplace(property, value_of(card, i + 1, false)).second) {
       card.fail(i, fmt::format("found a second PELAS {}", property));
     }
+  }
+}
+
+void read_pmass(const Card& card, RawDeck& raw) {
+  for (size_t i = 0; i < 8; i += 2) {
+    if (card.blank(i) && card.blank(i + 1)) continue;
+    const int32_t property = card.id(i, "PID");
+    if (!raw.scalar_masses.emplace(property, value_of(card, i + 1, true)).second) {
+      card.fail(i, fmt::format("found a second PMASS {}", property));
+    }
+  }
+}
+
+void read_spoint(const Card& card, RawDeck& raw) {
+  for (const IdRange& range : card.ids(0, "ID")) {
+    constexpr int32_t kMostPoints = 1'000'000;
+    if (range.last - range.first >= kMostPoints)
+      card.fail(0, fmt::format("found {} THRU {}, expected at most {} scalar points", range.first,
+                               range.last, kMostPoints));
+    for (int64_t id = range.first; id <= range.last; id += range.step)
+      raw.scalar_points.insert(static_cast<int32_t>(id));
+  }
+}
+
+void read_cbush(const Card& card, RawDeck& raw) {
+  RawBush bush;
+  bush.origin = card.origin();
+  bush.id = card.id(0, "EID");
+  bush.property = card.id_or(1, "PID", bush.id);
+  bush.grids = {card.id(2, "GA"), card.id_or(3, "GB", 0)};
+  if (card.is_integer(4) && card.blank(5) && card.blank(6)) {
+    bush.orientation_grid = card.id(4, "GO");
+  } else {
+    for (size_t k = 0; k < 3; ++k) bush.orientation[k] = card.number_or(4 + k, "X", 0.0);
+  }
+  bush.system = card.integer_or(7, "CID", -1);
+  bush.share = card.number_or(8, "S", 0.5);
+  bush.offset_system = card.integer_or(9, "OCID", -1);
+  for (size_t k = 0; k < 3; ++k) bush.offset[k] = card.number_or(10 + k, "S", 0.0);
+  card.at_most(13);
+  raw.bushes.push_back(bush);
+}
+
+// Rows of a word and up to six numbers; those of K count.
+void read_pbush(const Card& card, RawDeck& raw) {
+  const int32_t id = card.id(0, "PID");
+  RawBushProperty property;
+  property.origin = card.origin();
+  bool stiff = true;
+  for (size_t line = 0; line < card.size(); line += 8) {
+    if (line > 0 && !card.blank(line)) card.fail_expected(line, "field 2", "a blank field");
+    const std::string_view word = card.text(line + 1);
+    if (!word.empty()) stiff = word == "K";
+    if (word == "M" && !card.blank_from(line + 2))
+      card.fail(line + 1, "the mass of a bush (M) is not supported, expected a CONM2");
+    for (size_t k = 0; k < 6 && stiff; ++k) {
+      if (card.blank(line + 2 + k)) continue;
+      property.stiffness[k] = card.number(line + 2 + k, "K");
+      if (!(property.stiffness[k] >= 0.0))
+        card.fail_expected(line + 2 + k, "K", "a stiffness of 0 or more");
+    }
+    if (!stiff && (word == "B" || word == "GE"))
+      raw.count_damping("PBUSH " + std::string(word), card.origin());
+  }
+  if (!raw.bush_properties.emplace(id, property).second) {
+    card.fail(0, fmt::format("found a second PBUSH {}", id));
   }
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   Ignore ignore(options, capitals);
-  Refusals refusals;
+  Refusals refusals(options.contents);
   RawDeck raw = parse(source, ignore, refusals);
   std::vector<std::string> notes = std::move(raw.notes);
   std::unique_ptr<Model> model_owner;
@@ -22,18 +22,28 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   model.deck.mesh.name = name;
   model.deck.notes = std::move(notes);
   refusals.require([&] { build_mesh(model); });
+  refusals.attempt([&] { build_skins(model, ignore); });
   build_couplings(model);
+  build_links(model);
   build_masses(model);
   build_equations(model);
   build_springs(model);
+  build_bushes(model);
+  build_matrices(model);
   refusals.attempt([&] { build_supports(model); });
   build_sets(model);
   build_surfaces(model);
+  build_glue(model);
   build_initial_temperature(model);
   build_steps(model);
+  drop_loose(model, ignore);
   refusals.raise();
   model.deck.ignored = ignore.counted();
   count_unused(model);
+  note_solution(model);
+  choose_mass(model);
+  pass_damping(model);
+  model.deck.passed = refusals.contents().passed_line();
   model.deck.files = source.files();
   return std::move(model.deck);
 }

@@ -46,26 +46,34 @@ int32_t only_set(const Model& model, const char* card, const Sets& sets,
                   model.source.files().front(), top.size(), card, names, card));
 }
 
-/// The sets in `chosen`: itself, or the terms of its sum. InputError if one is missing.
+/// The sets in `chosen`: itself, or the terms of its sum; a term that is missing is said.
+/// InputError when nothing is left.
 template <class Sets>
-std::vector<int32_t> members_of(const Model& model, const char* card, int32_t chosen,
-                                const Sets& sets, const std::map<int32_t, SetSum>& sums,
-                                Origin origin) {
+std::vector<int32_t> members_of(Model& model, const char* card, int32_t chosen, const Sets& sets,
+                                const std::map<int32_t, SetSum>& sums, Origin origin) {
   const auto sum = sums.find(chosen);
   if (sum == sums.end()) {
     if (sets.contains(chosen)) return {chosen};
     model.source.fail(origin, fmt::format("{} = {}: found no such set", card, chosen));
   }
   std::set<int32_t> members;
+  std::vector<std::string> missing;
   for (const IdRange& range : sum->second.sets) {
     if (!range.is_range && !sets.contains(range.first)) {
-      model.source.fail(sum->second.origin, fmt::format("{}ADD {}: found no {} set {}", card,
-                                                        chosen, card, range.first));
+      missing.push_back(
+          fmt::format("{}ADD {}: found no {} set {}", card, chosen, card, range.first));
     }
     for (auto at = sets.lower_bound(range.first); at != sets.end() && at->first <= range.last;
          ++at) {
       members.insert(at->first);
     }
+  }
+  if (members.empty() && !missing.empty()) model.source.fail(sum->second.origin, missing.front());
+  for (const std::string& text : missing) {
+    const std::string note =
+        fmt::format("{}: {}: it is left out", model.source.where(sum->second.origin), text);
+    auto& notes = model.deck.notes;
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   }
   return {members.begin(), members.end()};
 }

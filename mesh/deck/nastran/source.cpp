@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace clatter::mesh::deck::nastran {
 namespace {
@@ -42,9 +43,20 @@ void Source::include(const std::string& name, Origin origin) {
   std::vector<std::filesystem::path> candidates;
   const auto folders = written_folders();
   // The last line may have ended its file, which is still open.
-  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) {
-    candidates.push_back(*folder / name);
-    candidates.push_back(*folder / slashed);
+  const auto next_to_decks = [&](const std::filesystem::path& file) {
+    for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder)
+      candidates.push_back(*folder / file);
+  };
+  next_to_decks(name);
+  next_to_decks(slashed);
+  // 'DIR:file': a folder that is an environment variable, as Nastran has it; else next to the deck.
+  const size_t colon = slashed.find(':');
+  if (colon != std::string::npos && colon > 1) {
+    const std::string file = slashed.substr(colon + 1);
+    if (const char* folder = std::getenv(slashed.substr(0, colon).c_str()))
+      candidates.push_back(std::filesystem::path(folder) / file);
+    next_to_decks(file);
+    next_to_decks(slashed.substr(0, colon) + "/" + file);
   }
   LineSource::include("INCLUDE", name, candidates, origin);
 }

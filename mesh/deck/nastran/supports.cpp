@@ -9,7 +9,13 @@ namespace clatter::mesh::deck::nastran {
 
 void Supports::read(const RawHold& hold) {
   model_.for_each_grid(hold.grids, hold.origin, [&](size_t row) {
-    add_node(model_.node_map.find(row), hold.dofs, hold.value, hold.origin);
+    DofMask dofs = hold.dofs;
+    if (const int32_t grid = model_.raw.grids.ids[row];
+        dofs == 0 || model_.raw.scalar_points.contains(grid))
+      dofs = static_cast<DofMask>(
+          1 << model_.direction_at(grid, dofs == 0 ? kScalar : 0, hold.origin));
+    if (model_.node_map.find(row) == NodeMap::kNone) ++unused_;
+    add_node(model_.node_map.find(row), dofs, hold.value, hold.origin);
   });
 }
 

@@ -23,6 +23,8 @@ class Supports {
   /// One Support for each value, set of directions and system. InputError for a DoF with two
   /// values.
   std::vector<Support> list();
+  /// Grids of cards that no cell, coupling or spring uses.
+  int64_t unused() const { return unused_; }
 
  private:
   struct Held {
@@ -38,6 +40,7 @@ class Supports {
   Model& model_;
   std::string name_;
   std::vector<Held> held_;
+  int64_t unused_ = 0;
   std::map<std::tuple<int32_t, double, DofMask>, Support> groups_;
 };
 

@@ -26,7 +26,12 @@ class RecipeWriter {
         deck_.files.empty() ? "a deck" : deck_.files.front());
     for (const auto& [card, count] : deck_.ignored)
       put("# ignored in the deck: {} ({} times)\n", card, count);
-    for (const std::string& note : deck_.notes) put("# {}\n", note);
+    if (!deck_.passed.empty()) put("# {}\n", deck_.passed);
+    for (const auto* said : {&deck_.renumbered, &deck_.notes})
+      for (const std::string& one : *said) put("# {}\n", one);
+    if (deck_.mass == MassForm::kLumped)
+      put("\n[mass]\nlumping = \"hrz\"  # lumped: without this table consistent\n");
+    offer_damping();
     systems();
     materials();
     std::string relations = std::exchange(text_, {});
@@ -43,6 +48,7 @@ class RecipeWriter {
     for (const Equation& equation : deck_.equations)
       put("\n[[equation]]  # {}\n{}", equation.where, terms_text(equation.terms));
     for (const Spring& spring : deck_.springs) add_spring(spring);
+    for (const NodalMatrix& matrix : deck_.matrices) add_matrix(matrix);
     masses();
     retained();
     const std::string steps = write_steps(deck_, names_);
@@ -56,6 +62,17 @@ class RecipeWriter {
   template <class... Args>
   void put(fmt::format_string<Args...> format, Args&&... args) {
     fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+  }
+
+  /// One model has one damping, a deck one for each material: the user decides.
+  void offer_damping() {
+    for (const auto& [name, material] : deck_.materials) {
+      if (material.mass_damping == 0.0 && material.stiffness_damping == 0.0) continue;
+      put("\n# the deck's damping of {} ({}), not used unless these lines are:\n# [damping]\n# "
+          "alpha "
+          "= {}\n# beta = {}\n",
+          name, material.where, material.stiffness_damping, material.mass_damping);
+    }
   }
 
   void systems() {
@@ -135,14 +152,16 @@ class RecipeWriter {
       return fmt::format("{} = \"{}\"\n", traits(type).name,
                          formulation == Formulation::kFull      ? "full"
                          : formulation == Formulation::kReduced ? "reduced"
+                         : formulation == Formulation::kFine    ? "fine"
                                                                 : "incompatible");
     return "";
   }
 
   void points() {
     for (const Point& point : deck_.points) {
-      if (point.of_bolt) continue;
-      put("\n[[point]]\nname = \"point_{}\"\nat = {}\n", point.id, toml_list(numbers(point.at)));
+      if (point.of_bolt || point.left_out) continue;
+      put("\n[[point]]\nname = \"point_{0}\"\nat = {1}\nnumber = {0}\n", point.id,
+          toml_list(numbers(point.at)));
     }
     for (const auto& [name, set] : names_.points_on_nodes())
       put("\n[[point]]\nname = {}\nnode_set = {}\n", toml_text(name), toml_text(set));
@@ -183,7 +202,7 @@ class RecipeWriter {
     if (tie.distance >= 0.0) put("distance = {}\n", tie.distance);
   }
 
-  std::string terms_text(const std::vector<Equation::Term>& all) {
+  std::string terms_text(const std::vector<Equation::Term>& all, bool with_coefficients = true) {
     constexpr const char* kNames[6] = {"x", "y", "z", "rx", "ry", "rz"};
     std::vector<std::string> terms;
     for (const Equation::Term& term : all) {
@@ -192,8 +211,9 @@ class RecipeWriter {
           names_.is_point(term.node_index) || turns
               ? fmt::format("point = \"{}\"", reference(term.node_index))
               : fmt::format("node_set = {}", toml_text(names_.node(term.node_index)));
-      terms.push_back(fmt::format("  {{ {}, direction = \"{}\", coefficient = {} }}", target,
-                                  kNames[term.direction], term.coefficient));
+      terms.push_back(fmt::format(
+          "  {{ {}, direction = \"{}\"{} }}", target, kNames[term.direction],
+          with_coefficients ? fmt::format(", coefficient = {}", term.coefficient) : ""));
     }
     return fmt::format("terms = [\n{},\n]\n", fmt::join(terms, ",\n"));
   }
@@ -203,11 +223,36 @@ class RecipeWriter {
         terms_text(spring.terms));
   }
 
+  /// True for a node that a rigid coupling or an equation moves: no [[nodes]] can keep it.
+  bool is_dependent(NodeIndex index) {
+    if (dependent_.empty()) {
+      dependent_.resize(static_cast<size_t>(deck_.mesh.nodes.rows()) + deck_.points.size(), false);
+      for (const Rigid& rigid : deck_.rigid)
+        for (const NodeIndex one : rigid.dependents) dependent_[static_cast<size_t>(one)] = true;
+      for (const Equation& equation : deck_.equations)
+        if (!equation.terms.empty())
+          dependent_[static_cast<size_t>(equation.terms[0].node_index)] = true;
+    }
+    return dependent_[static_cast<size_t>(index)];
+  }
+
+  void add_matrix(const NodalMatrix& matrix) {
+    std::vector<std::string> rows;
+    for (Eigen::Index i = 0; i < matrix.values.rows(); ++i) {
+      std::vector<double> row;
+      for (Eigen::Index j = 0; j <= i; ++j) row.push_back(matrix.values(i, j));
+      rows.push_back(fmt::format("  {}", fmt::join(row, ", ")));
+    }
+    put("\n[[matrix]]  # {}\nname = {}\n{}{} = [\n{},\n]\n", matrix.where, toml_text(matrix.name),
+        terms_text(matrix.terms, false), matrix.is_mass ? "M" : "K", fmt::join(rows, ",\n"));
+  }
+
   void masses() {
     for (const Mass& mass : deck_.masses) {
+      if (mass.mass == 0.0 && mass.inertia.isZero(0.0)) continue;
       const bool plain = mass.inertia.isZero(0.0) && mass.offset.isZero(0.0);
       std::string on;
-      if (names_.is_point(mass.node_index) || !plain) {
+      if (names_.is_point(mass.node_index) || !plain || is_dependent(mass.node_index)) {
         on = reference(mass.node_index);
       } else {
         const std::string set = names_.node(mass.node_index);
@@ -222,19 +267,35 @@ class RecipeWriter {
     }
   }
 
-  /// Retained nodes remain coordinates of the model; points already are sets.
+  /// The set of all DoFs that a condensation retains. Nodes with directions of their own system
+  /// keep all three: each follows from these.
   void retained() {
-    std::vector<NodeIndex> nodes;
-    for (const Support& set : deck_.retained)
-      for (const NodeIndex node_index : set.node_indices)
-        if (!names_.is_point(node_index)) nodes.push_back(node_index);
-    if (!nodes.empty())
-      put("\n[[nodes]]\nname = \"retained\"\nnode_set = {}\n",
-          toml_text(names_.node_indices(nodes, "retained").node_set));
+    if (deck_.retained.empty()) return;
+    put("\n[[nodes]]  # boundary = [\"retained\"] of clatter-condense\nname = \"retained\"\n");
+    for (const Support& set : deck_.retained) {
+      const bool turned = !set.system.empty();
+      const auto all_of = [&](DofMask three) {
+        return turned && (set.dofs & three) != 0 ? three : static_cast<DofMask>(set.dofs & three);
+      };
+      const auto dofs = static_cast<DofMask>(
+          all_of(kTranslations) | all_of(static_cast<DofMask>(kAllDofs & ~kTranslations)));
+      std::vector<NodeIndex> nodes, points;
+      for (const NodeIndex index : set.node_indices)
+        (names_.is_point(index) ? points : nodes).push_back(index);
+      for (const auto& [some, mask] : {std::pair(nodes, static_cast<DofMask>(dofs & kTranslations)),
+                                       std::pair(points, dofs)}) {
+        if (some.empty() || mask == 0) continue;
+        put("[[nodes.term]]\n");
+        put_nodes(some, "retained");
+        put("directions = {}{}\n", toml_directions(mask),
+            turned ? "  # all of them: the deck's are those of system " + set.system : "");
+      }
+    }
   }
 
   Deck& deck_;
   RecipeNames names_;
+  std::vector<bool> dependent_;  // by node and point; empty until it is needed
   std::string text_;
 };
 

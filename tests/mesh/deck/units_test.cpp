@@ -68,6 +68,9 @@ Deck of_ones() {
   Equation equation;
   equation.terms = {{0, 0, 1.0}, {2, 4, 1.0}};
   deck.equations = {equation};
+  deck.springs = {{"", 1.0, equation.terms}};
+  for (const bool is_mass : {false, true})
+    deck.matrices.push_back({"", "", is_mass, equation.terms, Eigen::MatrixXd::Ones(2, 2)});
   Mass mass;
   mass.mass = 1.0;
   mass.inertia.setOnes();
@@ -102,6 +105,14 @@ TEST(Deck, InMillimetresTonnesAndSecondsBecomesSi) {
   // x [mm] + theta = 0 is x [m] + 1e-3 theta = 0.
   EXPECT_EQ(deck.equations[0].terms[0].coefficient, 1.0);
   EXPECT_DOUBLE_EQ(deck.equations[0].terms[1].coefficient, 1e-3);
+  EXPECT_DOUBLE_EQ(deck.springs[0].stiffness, 1e3);  // N/mm
+  EXPECT_EQ(deck.springs[0].terms[0].coefficient, 1.0);
+  EXPECT_DOUBLE_EQ(deck.springs[0].terms[1].coefficient, 1e-3);  // a lever arm
+  Eigen::Matrix2d stiffness, mass;
+  stiffness << 1e3, 1.0, 1.0, 1e-3;  // N/mm, N, N mm
+  mass << 1e3, 1.0, 1.0, 1e-3;       // t, t mm, t mm2
+  EXPECT_LT((deck.matrices[0].values - stiffness).norm(), 1e3 * kRounding);
+  EXPECT_LT((deck.matrices[1].values - mass).norm(), 1e3 * kRounding);
   EXPECT_DOUBLE_EQ(deck.masses[0].mass, 1e3);
   EXPECT_NEAR(deck.masses[0].inertia(0, 1), 1e-3, kRounding);  // t mm2
   EXPECT_DOUBLE_EQ(deck.masses[0].offset(2), 1e-3);

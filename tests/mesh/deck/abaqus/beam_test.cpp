@@ -35,7 +35,7 @@ TEST(AbaqusBeam, OfAPartHasItsNodesCellsAndSupports) {
   EXPECT_EQ(deck.steps[0].supports[0].dofs, kTranslations);
 }
 
-TEST(AbaqusBeam, ShellsOnItsSkinAreRefusedByNameOrIgnored) {
+TEST(AbaqusBeam, ShellsOnItsSkinAreASurfaceOrIgnored) {
   const Mesh mesh = slender_block(CellType::kTet4);
   std::string shells = "*ELEMENT, TYPE=S3, ELSET=coat\n";
   int number = 1000;
@@ -44,8 +44,11 @@ TEST(AbaqusBeam, ShellsOnItsSkinAreRefusedByNameOrIgnored) {
     shells += fmt::format("{}, {}, {}, {}\n", ++number, faces(f, 0) + 1, faces(f, 1) + 1,
                           faces(f, 2) + 1);
   const std::string text = test::abaqus_beam(mesh, shells);
-  test::expect_parts(testing::refusal(text),
-                     {"element type S3 is not supported; ignore = [\"S3\"] skips it"});
+  const Deck coated = testing::read(text);
+  EXPECT_EQ(coated.mesh.surface("coat").face_count(), faces.rows());
+  EXPECT_EQ(nodes_of(coated.mesh.surface("coat")), nodes_of(mesh.surface("skin")));
+  ASSERT_EQ(coated.notes.size(), 1u);
+  test::expect_parts(coated.notes[0], {"52 S3: faces of solids, now the surface coat"});
   const Deck deck = testing::read(text, {"S3"});
   EXPECT_EQ(deck.mesh.nodes, mesh.nodes);
   EXPECT_EQ(deck.mesh.cell_count(), 36);

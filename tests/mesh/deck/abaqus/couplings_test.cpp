@@ -84,13 +84,14 @@ TEST(AbaqusCoupling, WhatItLacksIsNamed) {
 
 const std::string kDcoup = "*ELEMENT, TYPE=DCOUP3D, ELSET=D\n33, ";
 
-TEST(AbaqusCoupling, ADcoup3dAtTheCentreIsDistributingElsewhereTheUserDecides) {
+TEST(AbaqusCoupling, ADcoup3dBalancesTheMomentUnlessTheUserIgnoresIt) {
   const std::string card = "*DISTRIBUTING COUPLING, ELSET=D\nTOP, 2.\n";
   const Deck deck = read(kModel + "*NODE\n11, .5, .5, 1\n" + kDcoup + "11\n" + card);
   EXPECT_EQ(deck.distributing.at(0).terms.at(0).weight, 2.0);
   EXPECT_EQ(deck.distributing.at(0).reference, point(deck, 11));
-  EXPECT_NE(refusal(kModel + kDcoup + "9\n" + card).find("ignore = [\"MOMENT\"]"),
-            std::string::npos);
+  const Deck lever = read(kModel + kDcoup + "9\n" + card);
+  EXPECT_EQ(lever.distributing.at(0).reference, point(lever, 9));
+  EXPECT_NE(lever.notes.back().find("ignore = [\"MOMENT\"] loses it"), std::string::npos);
   const Deck mean = read(kModel + kDcoup + "9\n" + card, {"moment"});
   ASSERT_EQ(mean.equations.size(), 3u);
   ASSERT_EQ(mean.equations[2].terms.size(), 5u);
@@ -150,7 +151,7 @@ TEST(AbaqusEquation, HalfEquationsAreRefused) {
             std::string::npos);
   EXPECT_NE(refusal(kModel + "*EQUATION\n2\n1,4,1.,2,1,1.\n").find("no rotations"),
             std::string::npos);
-  EXPECT_NE(refusal(kModel + "*EQUATION\n2\nTOP,1,1.,2,1,1.\n").find("found 4 nodes"),
+  EXPECT_NE(refusal(kModel + "*EQUATION\n2\nTOP,1,1.,NALL,1,1.\n").find("found sets of 4 and"),
             std::string::npos);
 }
 

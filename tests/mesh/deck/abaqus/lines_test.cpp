@@ -56,12 +56,14 @@ TEST(AbaqusLines, RefusalsNameFileLineAndWhatWasFound) {
   EXPECT_EQ(refusal("*NODE\n-1,0,0,0\n"),
             "deck.inp:2: found '-1', expected the number of a node (1 to 2147483647)");
   EXPECT_EQ(refusal("1, 2\n").substr(0, 11), "deck.inp:1:");
-  EXPECT_EQ(refusal(kModel + "*SHELL SECTION, ELSET=S\n1.\n"),
-            "deck.inp:24: keyword *SHELL SECTION is not supported; ignore = [\"*SHELL SECTION\"] "
-            "skips it with its data lines");
-  EXPECT_NE(refusal(kCubeNodes + "*ELEMENT, TYPE=S4\n1,1,2,3,4\n")
-                .find("deck.inp:12: element type S4 is not supported; ignore = [\"S4\"]"),
+  EXPECT_EQ(refusal(kModel + "*GASKET SECTION, ELSET=S\n1.\n"),
+            "deck.inp:24: keyword *GASKET SECTION is not supported; ignore = [\"*GASKET SECTION\"] "
+            "skips it with its data lines and its stiffness: [[spring]] or [[tie]] of the recipe "
+            "replace it");
+  EXPECT_NE(refusal(kCubeNodes + "*ELEMENT, TYPE=CONN3D2\n1,1,2\n")
+                .find("deck.inp:12: element type CONN3D2 is not supported; ignore = [\"CONN3D2\"]"),
             std::string::npos);
+  EXPECT_NE(refusal(kCubeNodes + "*ELEMENT, TYPE=S4\n1,1,2,3,4\n").find("1 S4"), std::string::npos);
   EXPECT_NE(refusal(kModel + "*BOUNDARY, SUBMODEL\n1, 1\n").find("the parameter SUBMODEL"),
             std::string::npos);
   EXPECT_NE(refusal(kCubeNodes + "*ELEMENT, TYPE=C3D8\n1,1,2,3\n").find("found 3 nodes"),

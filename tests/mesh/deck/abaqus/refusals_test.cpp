@@ -81,7 +81,7 @@ TEST(AbaqusRefusals, ComeTogetherEachWithItsLine) {
   EXPECT_EQ(lines_in(said), 7) << said;
   EXPECT_THAT(said, HasSubstr("6 refusals:"));
   for (const char* one :
-       {"deck.inp:24: keyword *CONTACT PAIR is not supported", "deck.inp:27: found '9' in field 3",
+       {"deck.inp:24: contact opens and slides", "deck.inp:27: found '9' in field 3",
         "deck.inp:28: found no node set 'NOWHERE'", "deck.inp:29: *STEP with NLGEOM",
         "deck.inp:32: load P9 is not supported", "deck.inp:34: found 'x' in field 3"}) {
     EXPECT_THAT(said, HasSubstr(std::string("\n  ") + one)) << said;
@@ -93,23 +93,24 @@ TEST(AbaqusRefusals, ConsequencesOfARefusalAreNotReported) {
   // type, are not refused again.
   const std::string said =
       refusal(kCube +
-              "*ELEMENT, TYPE=B32, ELSET=BEAMS\n50, 1, 2, 3\n"
+              "*ELEMENT, TYPE=CONN3D2, ELSET=BEAMS\n50, 1, 2\n"
               "*MATERIAL, NAME=Steel\n*ELASTIC, TYPE=ODD\n1, 2\n"
               "*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL\n*ELSET, ELSET=BOTH\n1, 50\n"
               "*SURFACE, NAME=S\n1, S9\n*SURFACE, NAME=T\n1, S2\n*TIE, NAME=X\nS, T\n"
               "*STEP\n*STATIC\n*DLOAD\nBOTH, GRAV, 1., 0, 0, 1\n*END STEP\n");
   EXPECT_EQ(lines_in(said), 4) << said;
-  EXPECT_THAT(said, HasSubstr("deck.inp:14: element type B32 is not supported"));
+  EXPECT_THAT(said, HasSubstr("deck.inp:14: element type CONN3D2 is not supported"));
   EXPECT_THAT(said, HasSubstr("deck.inp:17: *ELASTIC: found TYPE=ODD"));
   EXPECT_THAT(said, HasSubstr("deck.inp:23: found face S9"));
 }
 
 TEST(AbaqusRefusals, RepetitionsAreCountedAndTenRefusalsAreTheLimit) {
   std::string twice = kModel, many = kModel;
-  for (int i = 0; i < 3; ++i) twice += "*CONTACT PAIR\nA, B\n";
+  for (int i = 0; i < 3; ++i) twice += "*INERTIA RELIEF\nA, B\n";
   EXPECT_EQ(refusal(twice),
-            "deck.inp:24: keyword *CONTACT PAIR is not supported; ignore = [\"*CONTACT PAIR\"] "
-            "skips it with its data lines (and 2 more, next at deck.inp:26)");
+            "deck.inp:24: keyword *INERTIA RELIEF is not supported; ignore = [\"*INERTIA RELIEF\"] "
+            "skips it with its data lines and its balance of loads: [[support]] of six DoFs of the "
+            "recipe replace it (and 2 more, next at deck.inp:26)");
   for (int i = 0; i < 40; ++i) many += "*UNKNOWN " + std::to_string(i) + "\n";
   const std::string said = refusal(many);
   EXPECT_EQ(lines_in(said), 11);

@@ -26,7 +26,7 @@ using testing::Folder;
 const UnitSystem kSi;
 
 deck::Deck read(const std::filesystem::path& path, const std::vector<std::string>& ignore = {}) {
-  return read_msh(path, kSi, {ignore});
+  return read_mesh_file(path, kSi, {ignore});
 }
 
 deck::Deck read_text(const std::string& text, const std::vector<std::string>& ignore = {}) {

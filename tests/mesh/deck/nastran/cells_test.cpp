@@ -108,7 +108,8 @@ TEST(NastranCell, MidSideNodesThatACardOmitsAreAddedOnceAndHang) {
 TEST(NastranCell, WrongNodesAreRefused) {
   EXPECT_THAT(refusal(kTet + "CTETRA,2,1,1,2,3,30\n"),
               HasSubstr("t.bdf:8: cell 2: found no GRID 30"));
-  EXPECT_THAT(refusal(kTet + "CTETRA,2,1,1,2,3,1\n"), HasSubstr("cell 2: found node 1 twice"));
+  EXPECT_THAT(refusal(kTet + "CTETRA,2,1,1,2,3,1\n"),
+              HasSubstr("cell 2: found a tet4 with repeated nodes that is no wedge"));
   EXPECT_THAT(refusal(kTet + "CTETRA,2,1,1,2,3\n"), HasSubstr("G: found nothing, expected"));
   EXPECT_THAT(refusal(kTet + "CTETRA,1,1,1,2,3,4\n"),
               StartsWith("t.bdf:8: cell 1: found another one with this number at t.bdf:7"));
@@ -198,12 +199,60 @@ TEST(NastranRegions, IntegrationOfHexesIsAsThePropertySays) {
     const auto& all = deck.regions.at(0).formulation;
     return all.empty() ? Formulation::kDefault : all.begin()->second;
   };
-  EXPECT_EQ(formulation("PSOLID,1,1\n", 8), Formulation::kDefault);
-  EXPECT_EQ(formulation("PSOLID,1,1,,TWO,,FULL\n", 8), Formulation::kFull);
-  EXPECT_EQ(formulation("PSOLID,1,1,,2,,1\n", 8), Formulation::kFull);
-  EXPECT_EQ(formulation("PSOLID,1,1,,2\n", 20), Formulation::kReduced);
-  EXPECT_EQ(formulation("PSOLID,1,1,,THREE,,FULL\n", 20), Formulation::kFull);
+  const auto k = [&](const std::string& in, const std::string& isop, int nodes) {
+    return formulation("PSOLID,1,1,," + in + ",," + isop + "\n", nodes);
+  };
+  // All pairs of the manual: IN blank, BUBBLE, TWO, THREE; ISOP blank or REDUCED, FULL.
+  for (const char* reduced : {"", "0", "REDUCED"}) {
+    for (const char* in : {"", "0", "BUBBLE", "TWO", "2", "THREE", "3"})
+      EXPECT_EQ(k(in, reduced, 8), Formulation::kDefault) << in;
+    for (const char* in : {"", "0", "THREE", "3"})
+      EXPECT_EQ(k(in, reduced, 20), Formulation::kFull) << in;
+    for (const char* in : {"TWO", "2"}) EXPECT_EQ(k(in, reduced, 20), Formulation::kReduced) << in;
+  }
+  for (const char* full : {"FULL", "1"}) {
+    for (const char* in : {"TWO", "2"}) EXPECT_EQ(k(in, full, 8), Formulation::kFull) << in;
+    for (const char* in : {"THREE", "3"}) EXPECT_EQ(k(in, full, 8), Formulation::kFine) << in;
+    EXPECT_EQ(k("BUBBLE", full, 8), Formulation::kDefault);  // has no standard points
+    EXPECT_EQ(k("TWO", full, 20), Formulation::kReduced);
+    EXPECT_EQ(k("THREE", full, 20), Formulation::kFull);
+  }
   EXPECT_THAT(refusal(kTet + "PSOLID,2,1,,,,,PFLUID\n"), HasSubstr("no fluids"));
+}
+
+TEST(NastranRegions, ChoicesOfIntegrationAreSaidOnceForEachKind) {
+  const auto notes = [](const std::string& psolid, int nodes, const char* card = "CHEXA") {
+    std::string cell = fmt::format("{},7,1", card), other = fmt::format("{},8,2", card);
+    for (int i = 1; i <= nodes; ++i) {
+      const std::string next = (i == 7 || i == 15 ? ",+\n+," : ",") + std::to_string(i);
+      cell += next;
+      other += next;
+    }
+    return read_deck(grids(1, nodes) + cell + "\n" + other + "\nMAT1,1,1.,,.3\nPSOLID,1,1" +
+                     psolid + "\nPSOLID,2,1" + psolid + "\nENDDATA\n")
+        .notes;
+  };
+  EXPECT_THAT(notes("", 8), ElementsAre(HasSubstr(
+                                "PSOLID 1 and 1 more, IN blank, ISOP blank: CHEXA of 8 grids has "
+                                "no counterpart for the bubble functions of Nastran; the nearest "
+                                "is incompatible modes")));
+  EXPECT_THAT(notes(",,THREE", 8), ElementsAre(HasSubstr("has no counterpart for the reduced shear "
+                                                         "strains of Nastran; the nearest is "
+                                                         "incompatible modes")));
+  EXPECT_THAT(notes(",,THREE,,FULL", 8), testing::IsEmpty());  // the same
+  EXPECT_THAT(notes(",,TWO,,FULL", 8), testing::IsEmpty());    // the same
+  EXPECT_THAT(notes(",,TWO", 6, "CPENTA"), ElementsAre(HasSubstr("full integration")));
+  EXPECT_THAT(notes("", 10, "CTETRA"), testing::IsEmpty());
+  EXPECT_THAT(notes("", 5, "CPYRAM"),
+              ElementsAre(HasSubstr("CPYRAM of 5 grids has no counterpart")));
+}
+
+TEST(NastranRegions, PropertiesAndMaterialsThatAreNotOfSolidsAreNamed) {
+  EXPECT_THAT(refusal(kTet + "CTETRA,2,8,1,2,3,4\nPLSOLID,8,1\n"),
+              HasSubstr("cell 2: property 8 is a PLSOLID, expected a PSOLID"));
+  EXPECT_THAT(refusal(kTet + "CTETRA,2,8,1,2,3,4\nPSOLID,8,3\nMAT8,3,70.,30.,.3\n"),
+              HasSubstr("material 3 is a MAT8, expected a MAT1 or MAT9"));
+  EXPECT_EQ(refusal(kTet + "MAT8,3,70.,30.,.3\nMAT10,4,1.,1.\nPCOMP,9\nENDDATA\n"), "");
 }
 
 }  // namespace

@@ -142,11 +142,31 @@ TEST(NastranFormat, EnddataEndsTheDeck) {
   EXPECT_EQ(read_deck(kTet + "enddata").mesh.cell_count(), 1);
 }
 
+TEST(NastranFormat, RepetitionsCopyFieldsAndStepThem) {
+  const std::string tail = "CTETRA,1,1,1,2,3,4\n";
+  const Deck deck =
+      read_deck("GRID,1,,0.,0.,0.\n=,2,=,*(1.),==\n=,*1,=,*(-1.),1.,=\n=,4,=,=,0.,1.\n" + tail);
+  EXPECT_EQ(deck.mesh.nodes.row(1), Eigen::RowVector3d(1, 0, 0));
+  EXPECT_EQ(deck.mesh.nodes.row(2), Eigen::RowVector3d(0, 1, 0));
+  EXPECT_EQ(deck.mesh.nodes.row(3), Eigen::RowVector3d(0, 0, 1));
+  // =3: three more GRIDs with the same steps.
+  const Deck many = read_deck(kTet +
+                              "GRID    11              0.      0.      5.\n"
+                              "=       *1      =       *1.     ==\n=3\nSET1,7,11,THRU,15\n"
+                              "CONM2,1,15,,2.\n");
+  EXPECT_EQ(many.points.at(0).at, Eigen::Vector3d(4, 0, 5));
+  EXPECT_THAT(refusal("BEGIN BULK\n=,1\n"),
+              HasSubstr("expected a card in small or free fields before it"));
+  EXPECT_THAT(refusal(kTet + "=4\n"), HasSubstr("found '=4', expected ="));
+}
+
 TEST(NastranFormat, UnknownCardsAreNamedAndCanBeIgnored) {
   const std::string deck = kTet + "CQUAD4,5,2,1,2,3,4\nCQUAD4,6,2,1,2,3,4\n";
-  EXPECT_EQ(refusal(deck),
-            "t.bdf:8: card CQUAD4 is not supported (no shells yet); ignore = [\"CQUAD4\"] skips it "
-            "(and 1 more, next at t.bdf:9)");
+  EXPECT_EQ(
+      refusal(deck),
+      "t.bdf:8: card CQUAD4 is not supported (no shells yet): 2 of them are not the face of a "
+      "solid; ignore = [\"CQUAD4\"] leaves out their stiffness and mass: [[spring]], "
+      "[[coupling]] and [[point_mass]] of the recipe replace them");
   EXPECT_EQ(read_deck(deck, {"cquad4"}).ignored.at("CQUAD4"), 2);
   EXPECT_EQ(read_deck(kTet + "MAT8,1,2.,3.,,,,,,+\n+,1.\n", {"MAT8"}).ignored.at("MAT8"), 1);
 }

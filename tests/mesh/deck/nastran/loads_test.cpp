@@ -145,13 +145,70 @@ TEST(NastranPressure, ValuesThatDifferGetSurfacesOfTheirOwn) {
 }
 
 TEST(NastranPressure, WhatIsNotPressureOnASolidIsRefused) {
-  EXPECT_THAT(refusal(kTet + "PLOAD4,3,1,5.,6.,,,1,3\n"), HasSubstr("pressures that vary"));
-  EXPECT_THAT(refusal(kTet + "PLOAD4,3,1,5.,,,,THRU,3\n"), HasSubstr("is for shells"));
+  EXPECT_THAT(refusal(kTet + "PLOAD4,3,1,5.\n"), HasSubstr("G1 of solid 1: found nothing"));
+  EXPECT_THAT(refusal(kTet + "PLOAD4,3,7,5.,,,,THRU,9\n"),
+              HasSubstr("found no two-dimensional cell 7 on a face of a solid"));
+  EXPECT_THAT(refusal(kTet + "PLOAD,3,5.,1,2,9\nGRID,9\n"),
+              HasSubstr("PLOAD: grid 9 belongs to no solid"));
   EXPECT_THAT(refusal(kTet + "PLOAD4,3,2,5.,,,,1,3\n"), HasSubstr("found no solid 2"));
-  EXPECT_THAT(refusal(kTet + "PLOAD4,3,1,5.,,,,1,3,+\n+,0,1.,0.,0.\n"),
-              HasSubstr("along a vector"));
   EXPECT_THAT(refusal(kTet + "GRID,9\nPLOAD4,3,1,5.,,,,1,9\n"),
               HasSubstr("node 9 is not a corner of cell 1"));
+}
+
+// A triangle with the corners 1, 2, 4 of area 1/2: each gets p A / 3 of a constant pressure, and
+// A / 12 (2 p_i + p_j + p_k) of one that varies.
+TEST(NastranPressure, AlongAVectorOrVaryingItIsForcesOnTheNodes) {
+  const Deck along = read_deck(kTet + "PLOAD4,3,1,6.,,,,1,3,+\n+,0,2.,0.,0.\n");
+  EXPECT_THAT(along.steps.at(0).pressures, testing::IsEmpty());
+  for (const int node : {0, 1, 3})
+    EXPECT_LT((total(along.steps[0], node) - Vector3d(1, 0, 0)).norm(), kLoadsRounding);
+  EXPECT_EQ(total(along.steps[0], 2), Vector3d(0, 0, 0));
+  // Outward from G1 = 1 the corners are 1, 2, 4; inward is +y.
+  const Deck varying = read_deck(kTet + "PLOAD4,3,1,24.,48.,0.,,1,3\n");
+  EXPECT_NEAR(total(varying.steps[0], 0)[1], (2 * 24 + 48) / 24.0, 1e-13);
+  EXPECT_NEAR(total(varying.steps[0], 1)[1], (2 * 48 + 24) / 24.0, 1e-13);
+  EXPECT_NEAR(total(varying.steps[0], 3)[1], (24 + 48) / 24.0, 1e-13);
+}
+
+TEST(NastranPressure, OfPloadActsAlongTheNormalOfItsGrids) {
+  // 1 2 4 is outward (-y): a positive PLOAD pulls.
+  const Deck pulls = read_deck(kTet + "PLOAD,3,5.,1,2,4\n");
+  ASSERT_THAT(pulls.steps.at(0).pressures, SizeIs(1));
+  EXPECT_EQ(pulls.steps[0].pressures[0].value, -5.0);
+  EXPECT_EQ(read_deck(kTet + "PLOAD,3,5.,1,4,2\n").steps.at(0).pressures[0].value, 5.0);
+  // A diagonal of a cube is no face: forces on its corners, along its normal.
+  const std::string cube =
+      "PSOLID,1,1\nMAT1,1,210.,,.3,7.8\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\n"
+      "GRID,4,,0.,1.,0.\nGRID,5,,0.,0.,1.\nGRID,6,,1.,0.,1.\nGRID,7,,1.,1.,1.\nGRID,8,,0.,1.,1.\n"
+      "CHEXA,1,1,1,2,3,4,5,6,+\n+,7,8\n";
+  const Deck cut = read_deck(cube + "PLOAD,3,8.,1,3,7,5\n");
+  EXPECT_THAT(cut.steps.at(0).pressures, testing::IsEmpty());
+  for (const int node : {0, 2, 4, 6})
+    EXPECT_LT((total(cut.steps[0], node) - Vector3d(2, -2, 0)).norm(), kLoadsRounding);
+}
+
+TEST(NastranPressure, OfTwoDimensionalCellsActsOnTheSolidBelow) {
+  const std::string skin = "CTRIA3,21,9,1,2,4\n";  // its normal is outward
+  EXPECT_EQ(read_deck(kTet + skin + "PLOAD2,3,5.,21\n").steps.at(0).pressures[0].value, -5.0);
+  EXPECT_EQ(read_deck(kTet + skin + "PLOAD4,3,21,5.,,,,THRU,21\n").steps.at(0).pressures[0].value,
+            -5.0);
+}
+
+TEST(NastranLoads, ForcesAlongGrids) {
+  // From grid 2 (1, 0, 0) to grid 3 (0, 1, 0).
+  const Deck one = read_deck(kTet + "FORCE1,3,4,10.,2,3\n");
+  EXPECT_LT((total(one.steps.at(0), 3) - Vector3d(-1, 1, 0) * std::sqrt(50.0)).norm(), 1e-14);
+  // x times y.
+  const Deck two = read_deck(kTet + "FORCE2,3,4,10.,1,2,1,3\n");
+  EXPECT_EQ(total(two.steps.at(0), 3), Vector3d(0, 0, 10));
+  EXPECT_THAT(refusal(kTet + "FORCE1,3,4,10.,2,2\n"), HasSubstr("grids that define a direction"));
+}
+
+TEST(NastranLoads, AccelIsGravityWhereItIsTheSameEverywhere) {
+  const Deck deck = read_deck(kTet + "ACCEL,3,0,0.,0.,1.,X,,,+\n+,0.,-9.81,1.,-9.81\n");
+  EXPECT_EQ(deck.steps.at(0).acceleration, Vector3d(0, 0, -9.81));
+  EXPECT_THAT(refusal(kTet + "ACCEL,3,0,0.,0.,1.,X,,,+\n+,0.,-9.81,1.,-5.\n"),
+              HasSubstr("accelerations that vary"));
 }
 
 TEST(NastranTemperature, FieldsCoverAllNodes) {

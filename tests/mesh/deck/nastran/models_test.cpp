@@ -187,14 +187,19 @@ TEST(NastranModel, SolidsInTurnedSystemsKeepTheirMassAndPosition) {
   double masses = 0.0;
   for (const auto& one : deck.masses) masses += one.mass;
   EXPECT_NEAR(masses, 1.0, kExact);
-  EXPECT_EQ(deck.masses[1].offset, Vector3d(0, 0.5, 0));  // along x of system 6
-  EXPECT_EQ(deck.ignored.at("CQUAD4"), 4);
+  EXPECT_EQ(deck.masses[1].offset, Vector3d(0, 0.5, 0));        // along x of system 6
+  EXPECT_EQ(deck.mesh.surfaces.at("pid_300").face_count(), 4);  // they lie on the solids
 }
 
 TEST(NastranModel, ShellsAreNotDroppedSilently) {
   const mesh::Mesh mesh = block({1, 2, 2}, {3.0, 4.0, 5.0}, CellType::kHex8);
-  expect_parts(refusal(satellite(mesh), {"CBAR", "PSHELL", "PBARL"}),
-               {"card CQUAD4 is not supported"});
+  const Deck deck = read_deck(satellite(mesh), {"CBAR"});
+  EXPECT_EQ(deck.mesh.surface("pid_300").face_count(), 4);
+  EXPECT_THAT(deck.notes,
+              testing::Contains(HasSubstr("4 CQUAD4: faces of solids, now the surface pid_300")));
+  EXPECT_THAT(
+      deck.notes,
+      testing::Contains(HasSubstr("PSHELL 300 gives stiffness to faces of solids, 0.1 thick")));
 }
 
 TEST(NastranModel, CubesOfAllKindsOfCells) {

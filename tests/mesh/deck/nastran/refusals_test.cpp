@@ -54,7 +54,7 @@ TEST(NastranRefusals, ComeTogetherEachWithItsLine) {
                                    "MPC,1,99,1,1.,1,1,-1.\nCONM2,5,98,0,1.\nENDDATA\n");
   EXPECT_THAT(said, HasSubstr("4 refusals:"));
   EXPECT_THAT(said, HasSubstr("t.bdf:8: card CQUAD4 is not supported"));
-  EXPECT_THAT(said, HasSubstr("(and 1 more, next at t.bdf:10)"));
+  EXPECT_THAT(said, HasSubstr("2 of them"));
   EXPECT_THAT(said, HasSubstr("t.bdf:9: card CBAR is not supported"));
   EXPECT_THAT(said, HasSubstr("t.bdf:11: "));
   EXPECT_THAT(said, HasSubstr("t.bdf:12: "));

@@ -97,6 +97,25 @@ TEST(NastranSupports, AsetAndBsetAreRetained) {
   EXPECT_THAT(deck.retained[2].node_indices, ElementsAre(4));
 }
 
+TEST(NastranSupports, RetainedGridsThatNothingUsesAreSaid) {
+  const Deck deck = read_deck(kTet + "GRID,20\nGRID,21\nCSET1,123,1,20,21\nENDDATA\n");
+  ASSERT_THAT(deck.retained, SizeIs(1));
+  EXPECT_THAT(deck.retained[0].node_indices, ElementsAre(0));
+  EXPECT_THAT(deck.notes, ElementsAre(HasSubstr("t.bdf:10: 2 retained grids")));
+}
+
+TEST(NastranSupports, ExceptLeavesNumbersOutOfARange) {
+  const auto held = [](const std::string& list) {
+    const auto supports = read_deck(kTet + "SPC1,5,1," + list + "\n").supports;
+    return supports.empty() ? std::vector<int32_t>() : supports[0].node_indices;
+  };
+  EXPECT_THAT(held("1,THRU,4,EXCEPT,2"), ElementsAre(0, 2, 3));
+  EXPECT_THAT(held("1,THRU,4,EXCEPT,1,2"), ElementsAre(2, 3));
+  EXPECT_THAT(held("1,THRU,4,EXCEPT,2,THRU,+\n+,4"), ElementsAre(0));
+  EXPECT_THAT(held("1,THRU,3,EXCEPT,3,4"), ElementsAre(0, 1, 3));  // 4 is beyond the range
+  EXPECT_THAT(refusal(kTet + "SPC1,5,1,1,THRU,4,EXCEPT,3,2\n"), HasSubstr("expected ascending"));
+}
+
 TEST(NastranSets, Set1HoldsNodesAndPoints) {
   const Deck deck =
       read_deck(kTet + kPoint + "SET1,5,4,1,THRU,2\nSET1,6,9,3\nSET1,7,1,THRU,4,BY,2\n");

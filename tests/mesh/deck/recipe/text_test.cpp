@@ -12,6 +12,7 @@
 #include "core/base/config.hpp"
 #include "core/mesh/boundary.hpp"
 #include "mesh/deck/import.hpp"
+#include "mesh/deck/nastran/reader.hpp"
 #include "mesh/deck/recipe/names.hpp"
 #include "tests/mesh/deck/abaqus/support.hpp"
 #include "tests/refusal.hpp"
@@ -111,6 +112,54 @@ TEST(RecipeText, SharesANodeSetAndMakesNoSecondOne) {
   EXPECT_THAT(deck.mesh.node_sets, SizeIs(3));  // BOT, NALL, TOP
 }
 
+const std::string kNastran =
+    "PSOLID,1,1,,THREE,,FULL\nMAT1,1,210.,,.3,7.8\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,"
+    "1.,"
+    "0.\nGRID,4,,0.,1.,0.\nGRID,5,,0.,0.,1.\nGRID,6,,1.,0.,1.\nGRID,7,,1.,1.,1.\nGRID,8,,0.,1.,1.\n"
+    "CHEXA,1,1,1,2,3,4,5,6,+\n+,7,8\nGRID,9,,0.,0.,3.\nGRID,10,,0.,0.,5.\n";
+
+Parsed parse_nastran(const std::string& text) { return parse(read_nastran_text("t.bdf", text)); }
+
+TEST(RecipeText, RetainsReferenceGridsAndComponents) {
+  const Recipe recipe =
+      parse_nastran(kNastran + "RBE2,11,9,123456,5,6\nASET1,123456,9\nASET1,3,1,2\n").recipe;
+  ASSERT_THAT(recipe.nodes, SizeIs(1));
+  EXPECT_EQ(recipe.nodes[0].name, "retained");
+  ASSERT_THAT(recipe.nodes[0].terms, SizeIs(2));
+  EXPECT_THAT(recipe.nodes[0].terms[0].directions, ElementsAre(2));
+  EXPECT_EQ(recipe.nodes[0].terms[1].selection.point, "point_9");
+  EXPECT_THAT(recipe.nodes[0].terms[1].directions, ElementsAre(0, 1, 2, 3, 4, 5));
+}
+
+TEST(RecipeText, HasTheMassAndIntegrationOfNastran) {
+  const Recipe lumped = parse_nastran(kNastran).recipe;
+  EXPECT_EQ(lumped.mass, fe::MassForm::kHrz);
+  EXPECT_EQ(lumped.materials.at(0).integration.hex8, fe::Integration::kFine);
+  EXPECT_EQ(parse_nastran(kNastran + "PARAM,COUPMASS,1\n").recipe.mass, fe::MassForm::kConsistent);
+}
+
+TEST(RecipeText, WritesMatricesAndSpringsWithLevers) {
+  const Recipe recipe = parse_nastran("CEND\nM2GG = MB\nBEGIN BULK\n" + kNastran +
+                                      "CBUSH,7,8,9,10,1.,0.,0.\nPBUSH,8,K,10.,20.\n"
+                                      "DMIG,MB,0,6,1,0\nDMIG,MB,9,1,,9,1,5.,,+\n+,10,2,-4.\n")
+                            .recipe;
+  ASSERT_THAT(recipe.springs, SizeIs(2));
+  EXPECT_THAT(recipe.springs[1].terms, SizeIs(4));
+  ASSERT_THAT(recipe.matrices, SizeIs(1));
+  EXPECT_TRUE(recipe.matrices[0].is_mass);
+  EXPECT_EQ(recipe.matrices[0].values(0, 0), 5.0);
+  EXPECT_EQ(recipe.matrices[0].values(0, 1), -4.0);
+}
+
+// [[nodes]] would keep a node that the coupling moves.
+TEST(RecipeText, AMassOnADependentNodeIsOnAPoint) {
+  const Recipe recipe =
+      parse_nastran(kNastran + "RBE2,11,9,123456,5,6\nCONM2,1,5,,2.\nCONM2,2,1,,3.\n").recipe;
+  ASSERT_THAT(recipe.point_masses, SizeIs(2));
+  EXPECT_EQ(recipe.point_masses[0].on, "on_node_5");
+  EXPECT_EQ(recipe.point_masses[1].on, "mass_node_1");
+}
+
 class DeckFile : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -128,7 +177,8 @@ class DeckFile : public ::testing::Test {
 };
 
 TEST_F(DeckFile, IsKnownByItsExtensionInAnyCase) {
-  for (const char* name : {"a.inp", "a.INP", "a.bdf", "a.nas", "a.DAT"}) EXPECT_TRUE(is_deck(name));
+  for (const char* name : {"a.inp", "a.INP", "a.bdf", "a.nas", "a.DAT", "a.fem"})
+    EXPECT_TRUE(is_deck(name));
   for (const char* name : {"a.toml", "a", "a.step"}) EXPECT_FALSE(is_deck(name));
 }
 
@@ -139,10 +189,19 @@ TEST_F(DeckFile, IsReadToSiWithItsSkin) {
   EXPECT_NEAR(deck.materials.begin()->second.constants[0], 2.1e11, 1e-3);
 }
 
-TEST_F(DeckFile, WithAnInvertedCellIsRefusedByItsNumber) {
-  const std::string inverted =
+TEST_F(DeckFile, WithLeftHandedCellsIsReadAndSaysSo) {
+  const std::string turned =
       kCubeNodes + "*ELEMENT, TYPE=C3D8, ELSET=EALL\n17, 5, 6, 7, 8, 1, 2, 3, 4\n";
-  const auto path = write("inverted.inp", inverted);
+  const Deck deck = read_deck(write("turned.inp", turned), {}, {});
+  EXPECT_THAT(
+      deck.renumbered,
+      ::testing::Contains(HasSubstr("1 of 1 cells are left-handed: their nodes are renumbered")));
+}
+
+TEST_F(DeckFile, WithAFoldedCellIsRefusedByItsNumber) {
+  const std::string folded =
+      kCubeNodes + "*ELEMENT, TYPE=C3D8, ELSET=EALL\n17, 1, 2, 4, 3, 5, 6, 8, 7\n";
+  const auto path = write("folded.inp", folded);
   EXPECT_THAT([&] { read_deck(path, {}, {}); },
               ThrowsMessage<InputError>(HasSubstr("1 of 1 cells are inverted or folded")));
   EXPECT_THAT([&] { read_deck(path, {}, {}); }, ThrowsMessage<InputError>(HasSubstr("cell 17")));

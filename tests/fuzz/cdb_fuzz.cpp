@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Any text is either such a file or an InputError: no crash, no hang, no runaway memory.
+#include <cstddef>
+#include <cstdint>
+#include <sstream>
+#include <string>
+
+#include "core/base/error.hpp"
+#include "mesh/deck/msh/cdb_reader.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  std::istringstream file(std::string(reinterpret_cast<const char*>(data), size));
+  try {
+    clatter::mesh::read_cdb(file, "fuzz.cdb", {});
+  } catch (const clatter::InputError&) {
+  }
+  return 0;
+}
