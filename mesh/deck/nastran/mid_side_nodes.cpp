@@ -22,15 +22,21 @@ class Completer {
   void complete(RawBlock& block) {
     const CellTraits& cell = traits(block.type);
     const auto per_cell = static_cast<size_t>(cell.nodes);
-    for (size_t first = 0; first < block.nodes.size(); first += per_cell)
-      for (size_t e = 0; cell.order == 2 && e < cell.edges.size(); ++e) {
-        int32_t& middle = block.nodes[first + static_cast<size_t>(cell.corners) + e];
-        if (middle != kNoRow) continue;
-        const auto [a, b] = cell.edges[e];
-        const int32_t i = block.nodes[first + static_cast<size_t>(a)],
-                      j = block.nodes[first + static_cast<size_t>(b)];
-        middle = i == j ? i : between(i, j);  // an edge without length, of repeated corners
+    for (size_t first = 0; cell.order == 2 && first < block.nodes.size(); first += per_cell) {
+      // In an order that is the same for a left-handed cell and for the one that it becomes.
+      std::multimap<std::pair<int32_t, int32_t>, size_t> missing;  // two of a collapsed face
+      for (size_t e = 0; e < cell.edges.size(); ++e) {
+        const size_t at = first + static_cast<size_t>(cell.corners) + e;
+        if (block.nodes[at] != kNoRow) continue;
+        const int32_t i = block.nodes[first + static_cast<size_t>(cell.edges[e][0])],
+                      j = block.nodes[first + static_cast<size_t>(cell.edges[e][1])];
+        if (i == j)
+          block.nodes[at] = i;  // an edge without length, of repeated corners
+        else
+          missing.emplace(std::minmax(i, j), at);
       }
+      for (const auto& [ends, at] : missing) block.nodes[at] = between(ends.first, ends.second);
+    }
   }
 
   std::vector<int32_t> hanging_rows() const { return hanging_rows_; }
