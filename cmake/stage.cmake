@@ -10,6 +10,23 @@ find_package(PkgConfig REQUIRED)
 add_library(clatter_eigen INTERFACE)
 target_link_libraries(clatter_eigen INTERFACE Eigen3::Eigen)
 
+# Libraries are installed for programs of others: find_package(clatter COMPONENTS ...), cmake/clatterConfig.cmake.in.
+# Of an installation for several generations of processors they are those of the oldest.
+if(NOT CLATTER_LEVELS OR CLATTER_ARCH STREQUAL "x86-64")
+  set(CLATTER_INSTALL_LIBRARIES ON)
+endif()
+# clatter_install(clatter_sparse ...): exported as clatter::sparse.
+function(clatter_install)
+  foreach(target ${ARGN})
+    string(REGEX REPLACE "^clatter_" "" exported ${target})
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${exported})
+  endforeach()
+  if(CLATTER_INSTALL_LIBRARIES)
+    install(TARGETS ${ARGN} EXPORT clatter ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/clatter)
+  endif()
+endfunction()
+clatter_install(clatter_eigen)
+
 # The standard library, Eigen and fmt are precompiled once for all libraries, and once with GoogleTest for
 # all tests: they dominate the compile time. Every file still includes what it uses.
 option(CLATTER_PRECOMPILE "precompile third-party headers" ON)
@@ -40,15 +57,25 @@ option(CLATTER_UNITY "compile neighbouring sources as one file" ON)
 set(CMAKE_UNITY_BUILD ${CLATTER_UNITY})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 12)
 
-# clatter_library(<name> SOURCES a.cpp ... LINKS clatter::core ...)
-# creates the static library clatter_<name>, alias clatter::<name>; include headers as "<folder>/x.hpp".
+# clatter_library(<name> SOURCES a.cpp ... LINKS clatter::core ... PRIVATE_LINKS ...)
+# creates the static library clatter_<name>, or without SOURCES one of headers alone; its alias is clatter::<name>, in an
+# installation as well. Include headers as "<folder>/x.hpp".
 function(clatter_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
-  add_library(clatter_${name} STATIC ${ARG_SOURCES})
+  if(ARG_SOURCES)
+    set(users PUBLIC)
+    add_library(clatter_${name} STATIC ${ARG_SOURCES})
+    target_link_libraries(clatter_${name} PRIVATE ${ARG_PRIVATE_LINKS})
+    clatter_use_precompiled(clatter_${name} clatter_headers)
+  else()
+    set(users INTERFACE)
+    add_library(clatter_${name} INTERFACE)
+  endif()
   add_library(clatter::${name} ALIAS clatter_${name})
-  target_include_directories(clatter_${name} PUBLIC ${PROJECT_SOURCE_DIR})
-  target_link_libraries(clatter_${name} PUBLIC ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
-  clatter_use_precompiled(clatter_${name} clatter_headers)
+  target_include_directories(clatter_${name} ${users}
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/clatter>)
+  target_link_libraries(clatter_${name} ${users} ${ARG_LINKS})
+  clatter_install(clatter_${name})
 endfunction()
 
 # clatter_stage(<name> SOURCES main.cpp LINKS clatter::<name>) creates the executable clatter-<name>.

@@ -73,8 +73,11 @@ const rom::DofSet& FeModel::set(const std::string& set_name) const {
   if (found != sets.end()) return found->second;
   std::vector<std::string> present;
   for (const auto& [key, value] : sets) present.push_back(key);
-  throw InputError(fmt::format("{}: set: found \"{}\", expected one of: {}", name, set_name,
-                               fmt::join(present, ", ")));
+  throw InputError(fmt::format(
+      "{}: set: found \"{}\", expected one of: {}; [[nodes]], [[sensor]], [[point]] or "
+      "[[coupling]] "
+      "in the fe.toml makes one, [[nodes]] of a node set of the mesh",
+      name, set_name, present.empty() ? "none" : fmt::format("{}", fmt::join(present, ", "))));
 }
 
 void require_unknowns(const FeModel& model, const std::string& what) {

@@ -8,6 +8,9 @@ import subprocess
 import tempfile
 import unittest
 
+import h5py
+import numpy as np
+
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("CLATTER_BUILD", SOURCE / "build/release"))
 BEAM = SOURCE / "samples/beam"
@@ -60,6 +63,28 @@ class CppSamples(unittest.TestCase):
         found = float(re.search(r"displacement (\S+) m", self.sample("expand_field", "beam.rom.h5", "tip_force"))[1])
         bending, shear = 0.6**3 / (3 * 210e9 * 0.04 * 0.03**3 / 12), 0.6 * 2.6 / (210e9 * 5 / 6 * 0.04 * 0.03)
         self.assertLess(abs(found / (bending + shear) - 1), 0.01)  # the clamp holds the cross-section's width as well
+
+    def test_deck_to_rom_condenses_a_deck_to_the_mass_that_it_has(self):
+        nodes = [(x, y, z) for z in (0, 10, 20) for y in (0, 10) for x in (0, 10)]
+        deck = ["*NODE, NSET=ALL", *(f"{i + 1}, {x}, {y}, {z}" for i, (x, y, z) in enumerate(nodes)), "*ELEMENT, TYPE=C3D8, ELSET=BAR",
+                "1, 1, 2, 4, 3, 5, 6, 8, 7", "2, 5, 6, 8, 7, 9, 10, 12, 11", "*NSET, NSET=TIP", "9, 10, 11, 12", "*MATERIAL, NAME=STEEL", "*ELASTIC",
+                "210000, 0.3", "*DENSITY", "7.85e-9", "*SOLID SECTION, ELSET=BAR, MATERIAL=STEEL"]
+        (self.folder / "bar.inp").write_text("\n".join(deck) + "\n")
+        text = self.sample("deck_to_rom", "bar.inp", "mm-t-s", "bar.rom.h5", "60000", "TIP")
+        self.assertIn("(craig-bampton)", text)
+        self.assertIn("mass 0.0157 kg", text)  # 7850 kg/m3 in 2 cm3
+        with h5py.File(self.folder / "bar.rom.h5") as rom:
+            self.assertEqual(list(rom["sets"]), ["TIP"])
+            self.assertEqual(rom["certificate"].attrs["rigid_modes"], 6)
+
+    def test_mass_on_spring_moves_as_the_closed_form(self):
+        self.sample("mass_on_spring", "mass.run.h5")
+        with h5py.File(self.folder / "mass.run.h5") as run:
+            time, travel = run["history/time"][:], run["history/mass_travel"][:]
+        # 1 mm of tension pulls the other way: the spring is longer without force than at the start.
+        exact = -1e-3 * (1 - np.cos(np.sqrt(8e4 / 2.0) * time))
+        self.assertLess(np.abs(travel - exact).max(), 2e-6)
+        self.assertGreater(time[-1], 0.0999)
 
     def test_a_wrong_file_is_one_line(self):
         done = subprocess.run([BUILD / "samples/expand_field", "none.rom.h5", "gas"], cwd=self.folder, capture_output=True, text=True)
