@@ -174,12 +174,13 @@ struct LoadSpec {
     kCentrifugal,
     kDisplacement,
     kNodal,
+    kAcceleration,  // a field of the mesh; uniform ones are kGravity
     kTemperature
   };
   std::string name, unit, where;
   Kind kind = Kind::kPressure;
   std::string surface, set;  // set: also the name of a point
-  std::string field;         // of the mesh: n x 3 [N], times `value`; n x 1 [K], minus `value`
+  std::string field;         // of the mesh: n x 3 [N] or [m/s2], times `value`; n x 1 [K], minus it
   std::string heat;          // a [[heat]]: its temperatures, minus `value`
   Eigen::VectorXd rise;      // temperature rise of the nodes by regions or a table [K], or empty
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // [N] per unit; gravity: unit vector
