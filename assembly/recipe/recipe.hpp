@@ -52,6 +52,7 @@ struct TermSpec {
   Selection selection;
   double weight = 1.0;  // of each node; of each m2 on a surface
   std::vector<int> directions = {0, 1, 2};
+  fe::Axes axes;  // of the directions; [[nodes]] only
 };
 
 /// [[coupling]]: a reference node that follows a face (distributing, RBE3), or that others follow
