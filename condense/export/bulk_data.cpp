@@ -3,13 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 
+#include "condense/export/node_frames.hpp"
 #include "core/base/artefact.hpp"
 #include "core/base/error.hpp"
 
@@ -24,7 +22,6 @@ struct Grid {
   std::string loose = "123456";  // components without a coordinate
   Eigen::Vector3d position;
   bool of_deck = false, turned = false;
-  std::array<std::optional<Eigen::Vector3d>, 3> axes;  // of the components that are turned
 };
 
 std::map<int, Grid> grids_of(const ExportedPart& part) {
@@ -36,34 +33,12 @@ std::map<int, Grid> grids_of(const ExportedPart& part) {
     grid.position = dof.position;
     grid.of_deck = dof.of_deck;
     grid.turned = grid.turned || dof.turned;
-    if (dof.turned) grid.axes[static_cast<size_t>((dof.component - 1) % 3)] = dof.direction;
   }
   return grids;
 }
 
-/// x, y, z of a grid; those that no coordinate has complete the others.
-Eigen::Matrix3d frame_of(const Grid& grid) {
-  Eigen::Matrix3d frame = Eigen::Matrix3d::Zero();
-  std::vector<Eigen::Index> known, other;
-  for (Eigen::Index d = 0; d < 3; ++d) {
-    const auto& axis = grid.axes[static_cast<size_t>(d)];
-    (axis ? known : other).push_back(d);
-    if (axis) frame.col(d) = *axis;
-  }
-  if (known.size() == 1) {
-    frame.col(other.front()) = frame.col(known.front()).unitOrthogonal();
-    other.erase(other.begin());
-  }
-  if (!other.empty()) {
-    const Eigen::Index d = other.front();
-    frame.col(d) = frame.col((d + 1) % 3).cross(frame.col((d + 2) % 3));
-  }
-  return frame;
-}
-
 /// The system with the number of its grid.
-void write_system(std::ostream& out, int node, const Grid& grid) {
-  const Eigen::Matrix3d frame = frame_of(grid);
+void write_system(std::ostream& out, int node, const Eigen::Matrix3d& frame) {
   const std::string zero = nastran_number(0.0);
   const auto of = [&](Eigen::Index axis, Eigen::Index d) { return nastran_number(frame(d, axis)); };
   out << fmt::format(
@@ -108,13 +83,14 @@ void write_bulk_head(std::ostream& out, const ExportedPart& part,
 }
 
 void write_grids(std::ostream& out, const ExportedPart& part, bool deck_nodes) {
+  const std::map<int, Eigen::Matrix3d> frames = frames_of(part.map);
   for (const auto& [node, grid] : grids_of(part)) {
     if (grid.of_deck && !deck_nodes) {
       out << fmt::format("$ GRID {}: keep the deck's, with {} (--deck-nodes writes it here)\n",
                          node, grid.turned ? "its CD" : "CD 0");
       continue;
     }
-    if (grid.turned) write_system(out, node, grid);
+    if (grid.turned) write_system(out, node, frames.at(node));
     const Eigen::Vector3d& p = grid.position;
     out << fmt::format("GRID*   {:<16}{:<16}{:<16}{:<16}*\n*       {:<16}{:<16}{:<16}\n", node, 0,
                        nastran_number(p[0]), nastran_number(p[1]), nastran_number(p[2]),
