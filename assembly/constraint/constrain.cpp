@@ -71,6 +71,7 @@ Constrained constrain(const PartData& part) {
       hold_oblique(part, relations.supports, Owners::kPoints, nodal_rigid, eliminator);
   GeneralisedSets faces = couple_faces(part, nodal_rigid, eliminator);
   Motions linked = drop_unattached(part, relations, eliminator);
+  TurnedCoordinates turned = turn_kept(part, relations, nodal_rigid, eliminator);
   const Elimination elimination = eliminator.finish();
 
   Motions motions = own_motions(part, relations);  // then in the order in which ids were added
@@ -79,6 +80,7 @@ Constrained constrain(const PartData& part) {
   append(motions, std::move(of_points.motions));
   append(motions, std::move(faces.motions));
   append(motions, std::move(linked));
+  append(motions, std::move(turned.motions));
   held.merge(of_nodes.held);
   held.merge(of_points.held);
   return {.elimination = elimination,
@@ -88,7 +90,7 @@ Constrained constrain(const PartData& part) {
           .springs = relations.springs,
           .matrix_dofs = relations.matrix_dofs,
           .rigid_of_node = rigid_body_of_nodes(part, relations.references),
-          .sets = sets_of_coordinates(part, relations, faces.sets, elimination),
+          .sets = sets_of_coordinates(part, {relations, turned.ids}, faces.sets, elimination),
           .grids = std::move(faces.grids),
           .held = held_in_order(elimination, held),
           .nodal_rigid = std::move(nodal_rigid)};

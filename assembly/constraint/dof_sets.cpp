@@ -22,7 +22,8 @@ int32_t number_in_deck(const PartData& part, NodeOrPoint owner) {
 }
 
 /// The DoFs of a [[nodes]] or [[sensor]], as ids.
-rom::DofSet kept_set(const NodeSpec& spec, const std::vector<KeptDof>& kept, const PartData& part) {
+rom::DofSet kept_set(const NodeSpec& spec, const std::vector<KeptDof>& kept,
+                     const std::vector<int32_t>& ids, const PartData& part) {
   rom::DofSet set;
   set.kind = spec.kind;
   const auto rows = static_cast<Eigen::Index>(kept.size());
@@ -31,9 +32,10 @@ rom::DofSet kept_set(const NodeSpec& spec, const std::vector<KeptDof>& kept, con
   const bool single = std::ranges::all_of(kept, [](const KeptDof& dof) { return dof.number == 0; });
   for (const KeptDof& dof : kept) {
     const auto r = static_cast<Eigen::Index>(set.dofs.size());
-    set.dofs.push_back(part.numbers.of(dof.owner, dof.direction));
+    set.dofs.push_back(ids[static_cast<size_t>(r)]);
     set.position.row(r) = part.numbers.position(dof.owner).transpose();
-    set.direction(r, dof.direction % 3) = 1.0;
+    set.direction.row(r) = dof.along.transpose();
+    set.components.push_back(dof.turned ? dof.direction + 1 : 0);
     set.is_rotation.push_back(dof.direction < 3 ? 0 : 1);
     set.node_ids.push_back(number_in_deck(part, dof.owner));
     const char* axis = kDofNames[static_cast<size_t>(dof.direction)];
@@ -42,6 +44,8 @@ rom::DofSet kept_set(const NodeSpec& spec, const std::vector<KeptDof>& kept, con
   }
   if (std::ranges::all_of(set.node_ids, [](int32_t number) { return number == 0; }))
     set.node_ids.clear();
+  if (std::ranges::all_of(set.components, [](int32_t component) { return component == 0; }))
+    set.components.clear();
   return set;
 }
 
@@ -66,11 +70,13 @@ rom::DofSet numbered(rom::DofSet set, const std::vector<int32_t>& reduced_of) {
     set.labels[to] = set.labels[k];
     set.is_rotation[to] = set.is_rotation[k];
     if (!set.node_ids.empty()) set.node_ids[to] = set.node_ids[k];
+    if (!set.components.empty()) set.components[to] = set.components[k];
   }
   set.dofs.resize(rows.size());
   set.labels.resize(rows.size());
   set.is_rotation.resize(rows.size());
   if (!set.node_ids.empty()) set.node_ids.resize(rows.size());
+  if (!set.components.empty()) set.components.resize(rows.size());
   set.position = set.position(rows, Eigen::all).eval();
   set.direction = set.direction(rows, Eigen::all).eval();
   return set;
@@ -79,8 +85,9 @@ rom::DofSet numbered(rom::DofSet set, const std::vector<int32_t>& reduced_of) {
 }  // namespace
 
 std::map<std::string, rom::DofSet> sets_of_coordinates(
-    const PartData& part, const Relations& relations,
+    const PartData& part, const KeptRelations& kept,
     const std::map<std::string, rom::DofSet>& generalised, const Elimination& elimination) {
+  const Relations& relations = kept.relations;
   std::map<std::string, rom::DofSet> by_id = generalised;
   by_id.insert(relations.bolts.begin(), relations.bolts.end());
   for (const CouplingSpec& spec : part.recipe.couplings)
@@ -88,7 +95,7 @@ std::map<std::string, rom::DofSet> sets_of_coordinates(
       by_id[spec.name] = six_dofs(spec.name, spec.kind, relations.references.at(spec.name));
   for (size_t s = 0; s < part.recipe.nodes.size(); ++s) {
     const NodeSpec& spec = part.recipe.nodes[s];
-    by_id[spec.name] = kept_set(spec, relations.kept[s], part);
+    by_id[spec.name] = kept_set(spec, relations.kept[s], kept.ids[s], part);
   }
   for (size_t p = 0; p < part.recipe.points.size(); ++p) {
     const std::string& name = part.recipe.points[p].point.name;

@@ -48,6 +48,10 @@ bool Eliminator::is_held(int32_t id) const { return state_[static_cast<size_t>(i
 
 void Eliminator::drop(int32_t id) { state_[static_cast<size_t>(id)] = kDropped; }
 
+bool Eliminator::is_dropped(int32_t id) const {
+  return state_[static_cast<size_t>(id)] == kDropped;
+}
+
 Eliminator::SparseRow Eliminator::gather() {
   std::sort(touched_.begin(), touched_.end());
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
@@ -271,7 +275,16 @@ bool Eliminator::add_onto(const Coupling& coupling, const std::vector<int32_t>& 
 }
 
 int32_t Eliminator::hold(const std::vector<Functional>& rows, const std::string& where) {
-  const int32_t first = allocate(static_cast<int>(rows.size()), kFixed);
+  return replace(rows, kFixed, where);
+}
+
+int32_t Eliminator::turn(const std::vector<Functional>& rows, const std::string& where) {
+  return replace(rows, kKept, where);
+}
+
+int32_t Eliminator::replace(const std::vector<Functional>& rows, int32_t state,
+                            const std::string& where) {
+  const int32_t first = allocate(static_cast<int>(rows.size()), state);
   std::vector<int32_t> ids(rows.size());
   std::iota(ids.begin(), ids.end(), first);
   for (const Functional& row : rows)

@@ -68,8 +68,13 @@ class Eliminator {
   /// no displacement is left to eliminate. Points' DoFs may be eliminated here, otherwise not.
   int32_t hold(const std::vector<Functional>& rows, const std::string& where);
 
+  /// Coordinates q = rows u in place of as many DoFs of the rows; returns the id of the first q.
+  /// Errors as for hold().
+  int32_t turn(const std::vector<Functional>& rows, const std::string& where);
+
   /// Removes a coordinate that occurs in no relation.
   void drop(int32_t id);
+  bool is_dropped(int32_t id) const;
 
   /// The functional in terms of the DoFs that are still in the model.
   Functional express(const Functional& functional);
@@ -82,6 +87,8 @@ class Eliminator {
   Elimination finish() const;
 
  private:
+  int32_t replace(const std::vector<Functional>& rows, int32_t state, const std::string& where);
+
   using SparseRow = std::vector<std::pair<int32_t, double>>;  // ids ascending
 
   int32_t allocate(int count, int32_t state);

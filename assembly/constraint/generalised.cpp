@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "assembly/constraint/coupling_members.hpp"
 #include "assembly/coupling/contact_patch.hpp"
 #include "core/base/error.hpp"
@@ -10,6 +13,8 @@
 
 namespace clatter::assembly {
 namespace {
+
+constexpr double kNoPart = 1e-12;  // of a unit vector: rounding of its axes
 
 /// The motions of new coordinates that are functionals of nodes' and points' DoFs.
 void append_motions(const std::vector<Functional>& functionals, const Eigen::MatrixXd& nodal_rigid,
@@ -26,7 +31,8 @@ void append_motions(const std::vector<Functional>& functionals, const Eigen::Mat
 std::vector<int32_t> kept_dofs(const PartData& part, const Relations& relations) {
   std::vector<int32_t> kept;
   for (const std::vector<KeptDof>& set : relations.kept)
-    for (const KeptDof& dof : set) kept.push_back(part.numbers.of(dof.owner, dof.direction));
+    for (const KeptDof& dof : set)
+      for (const int32_t id : ids_around(dof, part.numbers)) kept.push_back(id);
   for (size_t p = 0; p < part.numbers.points().size(); ++p)
     for (const int32_t id : point_dofs(part.numbers, static_cast<int32_t>(p)).ids)
       kept.push_back(id);
@@ -86,6 +92,49 @@ ObliqueSupports hold_oblique(const PartData& part, const std::vector<HeldGroup>&
     append_motions(rows, nodal_rigid, oblique.motions);
   }
   return oblique;
+}
+
+TurnedCoordinates turn_kept(const PartData& part, const Relations& relations,
+                            const Eigen::MatrixXd& nodal_rigid, Eliminator& eliminator) {
+  TurnedCoordinates all;
+  for (size_t s = 0; s < relations.kept.size(); ++s) {
+    const std::vector<KeptDof>& kept = relations.kept[s];
+    std::vector<int32_t> ids;
+    for (size_t k = 0; k < kept.size();) {
+      size_t end = k;  // of the displacements, or of the rotations, of one node or point
+      const auto around = ids_around(kept[k], part.numbers);
+      while (end < kept.size() && kept[end].turned && ids_around(kept[end], part.numbers) == around)
+        ++end;
+      if (end == k) {
+        ids.push_back(around[0]);
+        ++k;
+        continue;
+      }
+      const auto loose =
+          std::ranges::count_if(around, [&](int32_t id) { return eliminator.is_dropped(id); });
+      const std::string& where = part.recipe.nodes[s].where;
+      if (loose != 0 && loose != 3)
+        throw InputError(
+            fmt::format("{}: {}: nothing is attached to some of its directions, expected it kept "
+                        "along x y z: without system",
+                        where, part.numbers.name(around[0], part.mesh.node_ids)));
+      std::vector<Functional> rows;
+      for (; k < end; ++k) {
+        rows.emplace_back();
+        for (int d = 0; d < 3; ++d) {
+          if (std::abs(kept[k].along[d]) < kNoPart) continue;
+          rows.back().dofs.push_back(around[static_cast<size_t>(d)]);
+          rows.back().values.push_back(kept[k].along[d]);
+        }
+      }
+      const int32_t first = loose != 0 ? around[0] : eliminator.turn(rows, where);
+      for (size_t r = 0; r < rows.size(); ++r)
+        ids.push_back(loose != 0 ? first : first + static_cast<int32_t>(r));
+      if (loose == 0) append_motions(rows, nodal_rigid, all.motions);
+    }
+    all.ids.push_back(std::move(ids));
+  }
+  return all;
 }
 
 Motions couple_onto_points(const PartData& part, const std::vector<OntoPoint>& couplings,

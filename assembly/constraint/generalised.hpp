@@ -49,6 +49,18 @@ ObliqueSupports hold_oblique(const PartData& part, const std::vector<HeldGroup>&
                              Owners owners, const Eigen::MatrixXd& nodal_rigid,
                              Eliminator& eliminator);
 
+/// Kept coordinates along the axes of systems.
+struct TurnedCoordinates {
+  Motions motions;
+  std::vector<std::vector<int32_t>> ids;  // of each DoF of Relations::kept
+};
+
+/// Replaces the displacements (rotations) of nodes and points that are kept along other axes than
+/// x y z by the coordinates q = D u; what else D^T leaves of them remains in the model. After all
+/// other relations. InputError when some of them are no coordinates.
+TurnedCoordinates turn_kept(const PartData& part, const Relations& relations,
+                            const Eigen::MatrixXd& nodal_rigid, Eliminator& eliminator);
+
 /// Adds the couplings onto points: the point's DoFs stay coordinates and displacements of the face
 /// are eliminated; where all DoFs of the face are constrained, the point depends on those
 /// constraints. InputError when such a point is held by a support. Returns the motions of group

@@ -13,13 +13,15 @@
 #include "assembly/constraint/constraint_graph.hpp"
 #include "assembly/constraint/coupling_members.hpp"
 #include "assembly/constraint/tie_relations.hpp"
+#include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/mesh/mid_side_nodes.hpp"
 
 namespace clatter::assembly {
 namespace {
 
-constexpr double kGrounded = 1e-9;  // of the motion of an equation's terms taken one by one
+constexpr double kSameAxes = 1e-12;  // of an axis of a system to a basic one
+constexpr double kGrounded = 1e-9;    // of the motion of an equation's terms taken one by one
 
 using Dependences = std::vector<Dependence>;
 
@@ -65,27 +67,54 @@ std::vector<NodeOrPoint> owners_of(const PartData& part, const NodeSpec& spec,
   return {NodeOrPoint::of_node(nearest_node(part.mesh.nodes, spec, nodes))};
 }
 
-/// All these displacements stay coordinates.
-std::vector<std::vector<KeptDof>> gather_kept(const PartData& part, ConstraintGraph& graph) {
-  std::vector<std::vector<KeptDof>> all;
-  for (const NodeSpec& spec : part.recipe.nodes) {
-    const int relation = graph.add_relation(spec.where);
+/// Collects the DoFs that stay coordinates.
+class KeptDofs {
+ public:
+  KeptDofs(const PartData& part, ConstraintGraph& graph) : part_(part), graph_(graph) {}
+
+  std::vector<KeptDof> of(const NodeSpec& spec) {
+    const int relation = graph_.add_relation(spec.where);
     std::vector<KeptDof> kept;
     std::map<int32_t, int32_t> number_of;  // by owner: one in several terms counts once
     for (const TermSpec& term : spec.terms)
-      for (const NodeOrPoint owner : owners_of(part, spec, term)) {
+      for (const NodeOrPoint owner : owners_of(part_, spec, term)) {
         const auto next = static_cast<int32_t>(number_of.size());
         const int32_t number = number_of.emplace(owner.index, next).first->second;
+        const Eigen::Matrix3d axes = term.axes.at(part_.numbers.position(owner));
+        const bool turned = !axes.isIdentity(kSameAxes);
         for (int d = 0; d < 6; ++d) {
-          const int32_t id = part.numbers.of(owner, d);
-          if (id < 0 || (!term.directions.empty() && !std::ranges::count(term.directions, d)))
-            continue;
-          graph.keep(id, relation);
-          kept.push_back({owner, d, number});
+          const bool wanted = term.directions.empty() || std::ranges::count(term.directions, d) > 0;
+          if (!wanted || part_.numbers.of(owner, d) < 0) continue;
+          kept.push_back({owner, d, number, axes.col(d % 3), turned});
+          keep(kept.back(), relation, spec);
         }
       }
-    all.push_back(std::move(kept));
+    return kept;
   }
+
+ private:
+  void keep(const KeptDof& dof, int relation, const NodeSpec& spec) {
+    for (const int32_t id : ids_around(dof, part_.numbers)) {
+      const auto [at, fresh] = turned_.emplace(id, dof.turned);
+      if (at->second != dof.turned)
+        throw InputError(
+            fmt::format("{}: {} is kept along x y z and along the axes of a system, expected one "
+                        "of them in all [[nodes]] and [[sensor]]",
+                        spec.where, part_.numbers.name(id, part_.mesh.node_ids)));
+      // A support in the same system may hold another direction.
+      if (!dof.turned || !graph_.is_held(id)) graph_.keep(id, relation);
+    }
+  }
+
+  const PartData& part_;
+  ConstraintGraph& graph_;
+  std::unordered_map<int32_t, bool> turned_;  // by id
+};
+
+std::vector<std::vector<KeptDof>> gather_kept(const PartData& part, ConstraintGraph& graph) {
+  KeptDofs kept(part, graph);
+  std::vector<std::vector<KeptDof>> all;
+  for (const NodeSpec& spec : part.recipe.nodes) all.push_back(kept.of(spec));
   return all;
 }
 
@@ -250,6 +279,16 @@ std::optional<Eigen::RowVectorXd> grounded_motion(const PartData& part,
 }
 
 }  // namespace
+
+std::array<int32_t, 3> ids_around(const KeptDof& dof, const DofNumbers& numbers) {
+  const int first = dof.direction < 3 ? 0 : 3;
+  if (!dof.turned) {
+    const int32_t id = numbers.of(dof.owner, dof.direction);
+    return {id, id, id};
+  }
+  return {numbers.of(dof.owner, first), numbers.of(dof.owner, first + 1),
+          numbers.of(dof.owner, first + 2)};
+}
 
 Relations gather_relations(const PartData& part) {
   ConstraintGraph graph([&](int32_t id) { return part.numbers.name(id, part.mesh.node_ids); });

@@ -2,6 +2,7 @@
 #pragma once
 // The relations of a recipe: gathered and checked against one another before any is eliminated.
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -27,7 +28,12 @@ struct KeptDof {
   NodeOrPoint owner;
   int direction = 0;
   int32_t number = 0;  // of the node or point in its set
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  bool turned = false;  // `along` is a direction of a system other than the basic one
 };
+
+/// The ids of the DoFs x y z, or rx ry rz, of which a kept one is a combination.
+std::array<int32_t, 3> ids_around(const KeptDof& dof, const DofNumbers& numbers);
 
 /// All relations. The DoFs of own reference nodes have the ids after those of nodes and points, six
 /// for each rigid coupling; the bolts' shortenings have the next ones; both in the recipe's order.

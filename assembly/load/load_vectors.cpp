@@ -99,7 +99,7 @@ Eigen::VectorXd point_force(const DofNumbers& numbers, int32_t point, const Load
 }
 
 /// Forces on the nodes (3 n_nodes); zero for a load that acts otherwise.
-Eigen::VectorXd nodal_forces(const PartData& part, const LoadSpec& load, const HeatFields& heat) {
+Eigen::VectorXd nodal_forces(const PartData& part, const LoadSpec& load, const LoadInputs& inputs) {
   const Eigen::Index n_nodes = part.mesh.nodes.rows();
   switch (load.kind) {
     case LoadSpec::Kind::kPressure:
@@ -110,9 +110,11 @@ Eigen::VectorXd nodal_forces(const PartData& part, const LoadSpec& load, const H
       const RowMatrix& field = part.mesh.fields.at(load.field);
       return load.value * Eigen::Map<const Eigen::VectorXd>(field.data(), field.size());
     }
+    case LoadSpec::Kind::kAcceleration:
+      return inputs.of_fields.at(load.name);
     case LoadSpec::Kind::kTemperature:
       return thermal_load(part.mesh, part.recipe.materials,
-                          temperature_rise(part.mesh, load, heat));
+                          temperature_rise(part.mesh, load, inputs.heat));
     case LoadSpec::Kind::kForce:
     case LoadSpec::Kind::kGravity:
     case LoadSpec::Kind::kCentrifugal:
@@ -130,7 +132,7 @@ Eigen::VectorXd forces_of(const PartData& part, const LoadSpec& load, const Load
     if (const int32_t point = find_point(part.recipe, load.set); point >= 0)
       return point_force(part.numbers, point, load);
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(part.numbers.count());
-  forces.head(3 * part.mesh.nodes.rows()) = nodal_forces(part, load, inputs.heat);
+  forces.head(3 * part.mesh.nodes.rows()) = nodal_forces(part, load, inputs);
   return forces;
 }
 

@@ -25,7 +25,8 @@ using HeatFields = std::map<std::string, fe::HeatField>;
 /// What some loads need in addition to the recipe.
 struct LoadInputs {
   Eigen::MatrixXd momentum;  // 3 n_nodes x 3: M times unit accelerations of all nodes; or empty
-  HeatFields heat;           // of the [[heat]] tables
+  std::map<std::string, Eigen::VectorXd> of_fields;  // 3 n_nodes: M a of acceleration fields
+  HeatFields heat;                                   // of the [[heat]] tables
 };
 
 /// Builds all loads and prints the resultant of each. InputError for a load on a direction that

@@ -76,6 +76,19 @@ Eigen::MatrixXd momentum_of(const SparseMatrix& M, const Recipe& recipe) {
   return {};
 }
 
+/// M a of each load with a field of accelerations: 3 n_nodes.
+std::map<std::string, Eigen::VectorXd> momenta_of_fields(const SparseMatrix& M,
+                                                         const PartData& part) {
+  std::map<std::string, Eigen::VectorXd> momenta;
+  for (const LoadSpec& load : part.recipe.loads) {
+    if (load.kind != LoadSpec::Kind::kAcceleration) continue;
+    const RowMatrix& field = part.mesh.fields.at(load.field);
+    const Eigen::Map<const Eigen::VectorXd> a(field.data(), field.size());
+    momenta[load.name] = multiply_symmetric(M, load.value * a);
+  }
+  return momenta;
+}
+
 /// Labels, positions and directions of the supported coordinates.
 rom::DofSet support_set(const std::vector<HeldDof>& held, const DofNumbers& numbers) {
   rom::DofSet set;
@@ -185,7 +198,9 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
   fe::NodalMatrices nodal =
       fe::assemble(mesh, recipe.materials, pattern, recipe.mass, constrained.rigid_of_node);
   clock.lap("assemble");
-  LoadInputs inputs{.momentum = momentum_of(nodal.M, recipe), .heat = solve_heat(part, pattern)};
+  LoadInputs inputs{.momentum = momentum_of(nodal.M, recipe),
+                    .of_fields = momenta_of_fields(nodal.M, part),
+                    .heat = solve_heat(part, pattern)};
   if (!inputs.heat.empty()) clock.lap("heat");
   CoordinateBlocks K = transform_with_supports(std::move(nodal.K), elimination);
   CoordinateBlocks M = mass_blocks(std::move(nodal.M), elimination);

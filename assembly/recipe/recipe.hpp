@@ -52,6 +52,7 @@ struct TermSpec {
   Selection selection;
   double weight = 1.0;  // of each node; of each m2 on a surface
   std::vector<int> directions = {0, 1, 2};
+  fe::Axes axes;  // of the directions; [[nodes]] only
 };
 
 /// [[coupling]]: a reference node that follows a face (distributing, RBE3), or that others follow
@@ -174,12 +175,13 @@ struct LoadSpec {
     kCentrifugal,
     kDisplacement,
     kNodal,
+    kAcceleration,  // a field of the mesh; uniform ones are kGravity
     kTemperature
   };
   std::string name, unit, where;
   Kind kind = Kind::kPressure;
   std::string surface, set;  // set: also the name of a point
-  std::string field;         // of the mesh: n x 3 [N], times `value`; n x 1 [K], minus `value`
+  std::string field;         // of the mesh: n x 3 [N] or [m/s2], times `value`; n x 1 [K], minus it
   std::string heat;          // a [[heat]]: its temperatures, minus `value`
   Eigen::VectorXd rise;      // temperature rise of the nodes by regions or a table [K], or empty
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // [N] per unit; gravity: unit vector

@@ -65,7 +65,7 @@ void RecipeReader::reference(const Config& table, CouplingSpec& spec) {
 /// Selections of the table itself, then of its `term` tables; `all`: directions of those that have
 /// none.
 std::vector<TermSpec> RecipeReader::terms(const Config& table, const std::string& what,
-                                          const std::vector<int>& all) const {
+                                          const std::vector<int>& all, bool turned) const {
   std::vector<TermSpec> terms;
   const auto read_selections = [&](const Config& from, const TermSpec& like) {
     TermSpec term = like;
@@ -78,11 +78,12 @@ std::vector<TermSpec> RecipeReader::terms(const Config& table, const std::string
       terms.push_back(term);
     }
   };
-  read_selections(table, {{}, 1.0, all});
+  read_selections(table, {{}, 1.0, all, turned ? axes(table) : fe::Axes{}});
   for (const Config& part : table.tables("term")) {
     TermSpec like;
     like.weight = part.number_or("weight", 1.0, Range::positive());
     like.directions = directions(part, "directions", all, 6);
+    if (turned) like.axes = axes(part);
     const size_t before = terms.size();
     read_selections(part, like);
     if (terms.size() == before)

@@ -176,6 +176,13 @@ LoadSpec RecipeReader::load(const Config& table, Recipe& recipe) const {
     spec.field = field(table, 3);
     spec.value = table.number_or("scale", 1.0);
     spec.unit = table.text_or("unit", "1");
+  } else if (table.has("field")) {
+    if (table.has("direction"))
+      table.fail("field", "direction and field exclude each other: a field has its directions");
+    spec.kind = LoadSpec::Kind::kAcceleration;
+    spec.field = field(table, 3);
+    spec.value = table.number_or("scale", 1.0);
+    spec.unit = table.text_or("unit", "1");
   } else {
     spec.kind = LoadSpec::Kind::kGravity;
     spec.force = unit_vector(table, "direction");

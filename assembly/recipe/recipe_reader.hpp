@@ -50,8 +50,9 @@ class RecipeReader {
   void supports(Recipe& recipe) const;
   void couplings(Recipe& recipe);
   void reference(const Config& table, CouplingSpec& spec);
+  /// @param turned their directions may be those of a system.
   std::vector<TermSpec> terms(const Config& table, const std::string& what,
-                              const std::vector<int>& all) const;
+                              const std::vector<int>& all, bool turned = false) const;
   EquationSpec::Term term(const Config& table, const std::string& what) const;
   void equations(Recipe& recipe) const;
   void springs(Recipe& recipe) const;

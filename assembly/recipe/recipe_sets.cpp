@@ -75,14 +75,14 @@ void RecipeReader::nodes(Recipe& recipe) {
   for (const Config& table : config_.tables("sensor")) {
     NodeSpec spec{new_set(table), "sensor", {}, {}, {}};
     spec.where = where(table, "sensor " + spec.name);
-    spec.terms = {{{surface(table), {}, {}, spec.where}, 1.0, {}}};
+    spec.terms = {{{surface(table), {}, {}, spec.where}, 1.0, {}, {}}};
     spec.near = point(table, "near");
     recipe.nodes.push_back(spec);
   }
   for (const Config& table : config_.tables("nodes")) {
     NodeSpec spec{new_set(table), "node", {}, {}, {}};
     spec.where = where(table, "nodes " + spec.name);
-    spec.terms = terms(table, "nodes " + spec.name, {});
+    spec.terms = terms(table, "nodes " + spec.name, {}, true);
     recipe.nodes.push_back(spec);
   }
 }

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "condense/export/node_frames.hpp"
 #include "core/base/artefact.hpp"
 #include "core/base/error.hpp"
 
@@ -19,7 +21,7 @@ constexpr double kSmallest = 1e-99;
 struct Grid {
   std::string loose = "123456";  // components without a coordinate
   Eigen::Vector3d position;
-  bool of_deck = false;
+  bool of_deck = false, turned = false;
 };
 
 std::map<int, Grid> grids_of(const ExportedPart& part) {
@@ -30,8 +32,19 @@ std::map<int, Grid> grids_of(const ExportedPart& part) {
     std::erase(grid.loose, static_cast<char>('0' + dof.component));
     grid.position = dof.position;
     grid.of_deck = dof.of_deck;
+    grid.turned = grid.turned || dof.turned;
   }
   return grids;
+}
+
+/// The system with the number of its grid.
+void write_system(std::ostream& out, int node, const Eigen::Matrix3d& frame) {
+  const std::string zero = nastran_number(0.0);
+  const auto of = [&](Eigen::Index axis, Eigen::Index d) { return nastran_number(frame(d, axis)); };
+  out << fmt::format(
+      "CORD2R* {:<16}{:<16}{:<16}{:<16}*\n*       {:<16}{:<16}{:<16}{:<16}*\n*       "
+      "{:<16}{:<16}{:<16}\n",
+      node, 0, zero, zero, zero, of(2, 0), of(2, 1), of(2, 2), of(0, 0), of(0, 1), of(0, 2));
 }
 
 }  // namespace
@@ -61,23 +74,27 @@ void write_bulk_head(std::ostream& out, const ExportedPart& part,
   out << fmt::format("$ {} boundary coordinates, then {} modal ones\n", model.n_boundary,
                      model.size() - model.n_boundary);
   for (const std::string& line : lines) out << "$ " << line << '\n';
-  out << "$ row  node  component (0: SPOINT)  label; components are along the basic axes\n";
+  const bool turned = std::ranges::any_of(part.map, [](const auto& dof) { return dof.turned; });
+  out << fmt::format("$ row  node  component (0: SPOINT)  label; components are along the {}\n",
+                     turned ? "displacement axes of their grids (CD)" : "basic axes");
   for (size_t j = 0; j < part.map.size(); ++j)
     out << fmt::format("$ {}  {}  {}  {:.40}\n", j + 1, part.map[j].node, part.map[j].component,
                        part.map[j].label);
 }
 
 void write_grids(std::ostream& out, const ExportedPart& part, bool deck_nodes) {
+  const std::map<int, Eigen::Matrix3d> frames = frames_of(part.map);
   for (const auto& [node, grid] : grids_of(part)) {
     if (grid.of_deck && !deck_nodes) {
-      out << fmt::format("$ GRID {}: keep the deck's, with CD 0 (--deck-nodes writes it here)\n",
-                         node);
+      out << fmt::format("$ GRID {}: keep the deck's, with {} (--deck-nodes writes it here)\n",
+                         node, grid.turned ? "its CD" : "CD 0");
       continue;
     }
+    if (grid.turned) write_system(out, node, frames.at(node));
     const Eigen::Vector3d& p = grid.position;
     out << fmt::format("GRID*   {:<16}{:<16}{:<16}{:<16}*\n*       {:<16}{:<16}{:<16}\n", node, 0,
-                       nastran_number(p[0]), nastran_number(p[1]), nastran_number(p[2]), 0,
-                       grid.loose);
+                       nastran_number(p[0]), nastran_number(p[1]), nastran_number(p[2]),
+                       grid.turned ? node : 0, grid.loose);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "condense/export/node_frames.hpp"
 #include "condense/export/pencil_modes.hpp"
 #include "core/base/artefact.hpp"
 #include "core/base/whole_file.hpp"
@@ -102,6 +103,21 @@ void write_nodes(std::ostream& out, const ExportedPart& part, const Numbers& num
     out << fmt::format("{},0.,0.,0.\n", numbers.mode_node + k);
 }
 
+/// Axes of nodes with components of their own; the nodes of rotations have those of their node.
+void write_transforms(std::ostream& out, const ExportedPart& part, const Numbers& numbers) {
+  const std::map<int, Eigen::Matrix3d> frames = frames_of(part.map);
+  std::set<int> done;
+  for (size_t j = 0; j < part.map.size(); ++j) {
+    const int node = numbers.dofs[j].node;
+    if (!part.map[j].turned || !done.insert(node).second) continue;
+    const Eigen::Matrix3d& axes = frames.at(part.map[j].node);
+    out << fmt::format(
+        "*NSET,NSET=CLATTER_AXES_{0}\n{0}\n*TRANSFORM,NSET=CLATTER_AXES_{0},TYPE=R\n"
+        "{1:.12e},{2:.12e},{3:.12e},{4:.12e},{5:.12e},{6:.12e}\n",
+        node, axes(0, 0), axes(1, 0), axes(2, 0), axes(0, 1), axes(1, 1), axes(2, 1));
+  }
+}
+
 /// Unit masses and springs; CalculiX reads 20 columns of a number, hence 14 digits for a spring.
 void write_modes(std::ostream& out, const PencilModes& modes, const Numbers& numbers,
                  const UnitSystem& units) {
@@ -151,6 +167,7 @@ void export_calculix(const ExportedPart& part, const std::filesystem::path& path
   std::ostream& out = deck.stream();
   write_head(out, part, numbers, path.stem().string());
   write_nodes(out, part, numbers);
+  write_transforms(out, part, numbers);
   write_modes(out, modes, numbers, part.units);
   write_equations(out, model, modes.Phi, numbers);
   deck.commit();

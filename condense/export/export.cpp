@@ -117,7 +117,9 @@ std::vector<Path> export_reduced(const rom::ReducedModel& with_rows, const Path&
         "{}: found {} boundary coordinates that became interface modes, expected a part "
         "without [interface] for other programs",
         model.name, model.combined.rows()));
-  const ExportedPart part = exported_part(model, units_of(format, model, path, options), options);
+  ExportOptions in_deck = options;
+  in_deck.numbering.deck_axes = format.units == Units::kDeck;
+  const ExportedPart part = exported_part(model, units_of(format, model, path, options), in_deck);
   say(fmt::format("{}: {}{}", path.string(), text_of(part.units), numbers_text(part)));
   format.write(part, path);
   return format.files(path);

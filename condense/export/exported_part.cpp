@@ -39,7 +39,7 @@ void convert(rom::InertiaInvariants& inertia, const Eigen::VectorXd& s, const Un
 /// Two DoFs of one node, or one and the same.
 bool belong_together(const rom::MappedDof& a, const rom::MappedDof& b) {
   return &a == &b || (a.component != 0 && b.component != 0 && a.of_deck == b.of_deck &&
-                      a.position == b.position);
+                      a.turned == b.turned && a.position == b.position);
 }
 
 void check_numbers(const ExportedPart& part) {

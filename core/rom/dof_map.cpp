@@ -64,14 +64,16 @@ class NodeNumbers {
   int32_t node_ = 0, scalar_ = 0;          // the last ones
 };
 
-MappedDof place_of(const DofSet& set, const std::string& name, size_t k) {
+MappedDof place_of(const DofSet& set, const std::string& name, size_t k, bool deck_axes) {
   MappedDof dof;
   const bool rotation = set.is_rotation[k] != 0;
   const auto row = static_cast<Eigen::Index>(k);
   dof.kind = rotation ? MappedDof::Kind::kRotation : MappedDof::Kind::kDisplacement;
   dof.position = set.position.row(row);
   dof.direction = set.direction.row(row);
-  dof.component = component_of(dof.direction, rotation);
+  const int32_t own = k < set.components.size() ? set.components[k] : 0;
+  dof.turned = deck_axes && own > 0;
+  dof.component = own == 0 ? component_of(dof.direction, rotation) : dof.turned ? own : 0;
   dof.set = name;
   dof.label = set.labels[k];
   return dof;
@@ -140,7 +142,7 @@ std::vector<MappedDof> map_of(const ReducedModel& model, const NodeNumbering& nu
     for (size_t k = 0; k < set.dofs.size(); ++k) {
       if (set.dofs[k] >= model.size()) continue;  // a combination of coordinates
       MappedDof& dof = map[static_cast<size_t>(set.dofs[k])];
-      if (dof.kind == MappedDof::Kind::kModal) dof = place_of(set, name, k);
+      if (dof.kind == MappedDof::Kind::kModal) dof = place_of(set, name, k, numbering.deck_axes);
       int32_t& number = deck_number[static_cast<size_t>(set.dofs[k])];
       if (number == 0 && k < set.node_ids.size()) number = set.node_ids[k];
     }

@@ -22,12 +22,14 @@ struct MappedDof {
   std::string set;                                      // empty for a modal DoF
   std::string label;
   bool of_deck = false;  // `node` is its number in the deck of the mesh
+  bool turned = false;   // the component is along or about axes of its own of the deck's node
 };
 
 /// Numbers of nodes that the deck does not have.
 struct NodeNumbering {
   int32_t first_node = 0;    // 0: 1; of a part from a deck a round number after those of the deck
   int32_t first_scalar = 0;  // of DoFs of component 0; 0: one count together with the nodes
+  bool deck_axes = false;    // DoFs along axes of their own of the deck's nodes have components
 };
 
 /// Entry j is coordinate j. A DoF in two sets gets the position of the first by name. Boundary DoFs

@@ -86,6 +86,14 @@ DofSet read_dof_set(const H5File& file, const std::string& at, int n_dofs) {
   if (!set.node_ids.empty() && set.node_ids.size() != set.dofs.size())
     throw InputError(fmt::format("{}: {}/node_ids: found {} for {} degrees of freedom",
                                  file.path().string(), at, set.node_ids.size(), set.dofs.size()));
+  if (file.has(at + "/components")) set.components = file.read_ints(at + "/components");
+  if (!set.components.empty() && set.components.size() != set.dofs.size())
+    throw InputError(fmt::format("{}: {}/components: found {} for {} degrees of freedom",
+                                 file.path().string(), at, set.components.size(), set.dofs.size()));
+  for (const int32_t component : set.components)
+    if (component < 0 || component > 6)
+      throw InputError(fmt::format("{}: {}/components: found {}, expected 0 to 6",
+                                   file.path().string(), at, component));
   if (set.labels.size() != set.dofs.size() || set.is_rotation.size() != set.dofs.size()) {
     throw InputError(fmt::format("{}: {}: found {} labels for {} degrees of freedom",
                                  file.path().string(), at, set.labels.size(), set.dofs.size()));
@@ -180,6 +188,7 @@ void write_dof_sets(H5File& file, const std::map<std::string, DofSet>& sets,
     file.write(at + "/is_rotation", set.is_rotation);
     file.set(at, "kind", set.kind);
     if (!set.node_ids.empty()) file.write(at + "/node_ids", set.node_ids);
+    if (!set.components.empty()) file.write(at + "/components", set.components);
   }
   for (const auto& [name, grid] : grids) write_grid(file, "grids/" + name, grid);
 }

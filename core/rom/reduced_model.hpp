@@ -31,11 +31,13 @@ inline constexpr const char* kRomSchema = "clatter/rom/1";
 struct DofSet {
   std::string kind;           // "node", "bearing", "mount", "sensor", "contact_grid", "mean"
   std::vector<int32_t> dofs;  // indices into the model's coordinates (FE: n, reduced: dof_count())
-  std::vector<std::string> labels;   // one per DoF: "sensor_block.y", "liner_4[3,7]"
-  Eigen::MatrixXd position;          // dofs x 3 [m]
-  Eigen::MatrixXd direction;         // dofs x 3, unit vectors
-  std::vector<int32_t> is_rotation;  // 1: rotation about `direction`, 0: displacement along it
-  std::vector<int32_t> node_ids{};   // node numbers in the deck of the mesh, 0: none; or empty
+  std::vector<std::string> labels;    // one per DoF: "sensor_block.y", "liner_4[3,7]"
+  Eigen::MatrixXd position;           // dofs x 3 [m]
+  Eigen::MatrixXd direction;          // dofs x 3, unit vectors
+  std::vector<int32_t> is_rotation;   // 1: rotation about `direction`, 0: displacement along it
+  std::vector<int32_t> node_ids{};    // node numbers in the deck of the mesh, 0: none; or empty
+  std::vector<int32_t> components{};  // 1 to 6 along and about axes of the node's own in the deck,
+                                      // 0: `direction` is x, y, z or none of a deck; or empty
 };
 
 /// A grid of patches on a cylinder surface (liner bore or piston skirt). Patch (i, j) is DoF

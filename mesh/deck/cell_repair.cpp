@@ -140,21 +140,53 @@ bool has_repeats(std::span<const int32_t> corners) {
   return false;
 }
 
-class Repair {
- public:
-  Repair(Mesh& mesh, const std::string& where) : mesh_(mesh), where_(where) {}
+std::span<const int32_t> corners_of(const CellBlock& block, Eigen::Index cell) {
+  return {block.nodes.row(cell).data(), static_cast<size_t>(traits(block.type).corners)};
+}
 
-  std::vector<std::string> run() {
+/// The edge in whose middle each mid-side node lies, its distance at most a quarter of the edge;
+/// empty when some have none or share one.
+std::vector<int> edges_by_position(CellType type, const CellNodes& x) {
+  constexpr double kNear = 0.25;
+  const CellTraits& cell = traits(type);
+  std::vector<int> edge_of;
+  for (int m = cell.corners; m < cell.nodes; ++m) {
+    for (int e = 0; e < cell.nodes - cell.corners; ++e) {
+      const auto [a, b] = cell.edges[static_cast<size_t>(e)];
+      const double away = (x.row(m) - 0.5 * (x.row(a) + x.row(b))).norm();
+      if (away > kNear * (x.row(a) - x.row(b)).norm()) continue;
+      if (std::ranges::count(edge_of, e) > 0) return {};
+      edge_of.push_back(e);
+      break;
+    }
+    if (static_cast<int>(edge_of.size()) != m - cell.corners + 1) return {};
+  }
+  return edge_of;
+}
+
+class CellRepair {
+ public:
+  CellRepair(Mesh& mesh, const std::string& where) : mesh_(mesh), where_(where) {}
+
+  std::vector<Repair> run() {
     simplify_cells();
     mirror_cells();
-    if (!simplified_.empty() || mirrored_ > 0) repair_surfaces();
-    std::vector<std::string> done;
+    sort_mid_side_nodes();
+    std::vector<Repair> done;
     for (const auto& [types, count] : simplified_)
-      done.push_back(fmt::format("{} cells {} with repeated nodes are read as {}", count,
-                                 traits(types.first).name, traits(types.second).name));
+      done.push_back(
+          {count, fmt::format("{}: {} cells {} with repeated nodes are read as {}", where_, count,
+                              traits(types.first).name, traits(types.second).name)});
     if (mirrored_ > 0)
-      done.push_back(fmt::format("{} of {} cells are left-handed: their nodes are renumbered",
-                                 mirrored_, mesh_.cell_count()));
+      done.push_back({mirrored_, fmt::format("{}: {} of {} cells are left-handed: their nodes are "
+                                             "renumbered",
+                                             where_, mirrored_, mesh_.cell_count())});
+    if (sorted_ > 0)
+      done.push_back(
+          {sorted_, fmt::format("{}: {} of {} cells have mid-side nodes that lie on other edges "
+                                "than their order says: they are sorted by their positions",
+                                where_, sorted_, mesh_.cell_count())});
+    if (!done.empty()) repair_surfaces();
     return done;
   }
 
@@ -171,9 +203,7 @@ class Repair {
       std::map<CellType, Made> made;
       std::vector<Eigen::Index> kept;
       for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-        const std::span corners(block.nodes.row(c).data(),
-                                static_cast<size_t>(traits(block.type).corners));
-        if (!has_repeats(corners)) {
+        if (!has_repeats(corners_of(block, c))) {
           kept.push_back(c);
           continue;
         }
@@ -238,6 +268,37 @@ class Repair {
     }
   }
 
+  void sort_mid_side_nodes() {
+    for (CellBlock& block : mesh_.cells) {
+      const CellTraits& cell = traits(block.type);
+      for (Eigen::Index c = 0; cell.order == 2 && c < block.nodes.rows(); ++c) {
+        if (!is_displaced(block, c)) continue;
+        const CellNodes x = cell_nodes(mesh_, block, c);
+        const std::vector<int> edge_of = edges_by_position(block.type, x);
+        if (edge_of.empty() || jacobian_bounds(block.type, x).min > 0.0) continue;
+        const auto row = block.nodes.row(c);
+        const Nodes old(row.begin(), row.end());
+        for (size_t m = 0; m < edge_of.size(); ++m)
+          block.nodes(c, cell.corners + edge_of[m]) = old[static_cast<size_t>(cell.corners) + m];
+        ++sorted_;
+      }
+    }
+  }
+
+  /// A mid-side node lies farther from the middle of its edge than the edge's ends: det J changes
+  /// its sign there.
+  bool is_displaced(const CellBlock& block, Eigen::Index c) const {
+    const CellTraits& cell = traits(block.type);
+    const auto at = [&](int i) { return mesh_.nodes.row(block.nodes(c, i)); };
+    for (int e = 0; e < cell.nodes - cell.corners; ++e) {
+      const auto [a, b] = cell.edges[static_cast<size_t>(e)];
+      if ((2.0 * at(cell.corners + e) - at(a) - at(b)).squaredNorm() >
+          (at(a) - at(b)).squaredNorm())
+        return true;
+    }
+    return false;
+  }
+
   static CellType linear_cell(CellType type) {
     for (const CellType linear :
          {CellType::kTet4, CellType::kPyramid5, CellType::kWedge6, CellType::kHex8})
@@ -290,13 +351,20 @@ class Repair {
   Mesh& mesh_;
   const std::string& where_;
   std::map<std::pair<CellType, CellType>, int64_t> simplified_;
-  int64_t mirrored_ = 0;
+  int64_t mirrored_ = 0, sorted_ = 0;
 };
 
 }  // namespace
 
-std::vector<std::string> repair_cells(Mesh& mesh, const std::string& where) {
-  return Repair(mesh, where).run();
+std::vector<Repair> repair_cells(Mesh& mesh, const std::string& where) {
+  return CellRepair(mesh, where).run();
+}
+
+bool has_repeated_corners(const Mesh& mesh) {
+  for (const CellBlock& block : mesh.cells)
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
+      if (has_repeats(corners_of(block, c))) return true;
+  return false;
 }
 
 }  // namespace clatter::mesh::deck

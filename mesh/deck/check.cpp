@@ -89,8 +89,8 @@ void add_remarks(const Deck& deck, std::vector<CheckedRow>& rows) {
     });
     if (!listed) rows.push_back({count, "", name, "left out", "", ""});
   }
-  for (const std::string& done : deck.renumbered)
-    rows.push_back({1, "", "", "renumbered", "", done});
+  for (const Repair& done : deck.renumbered)
+    rows.push_back({done.cells, "", "", "renumbered", "", done.text});
   for (const std::string& note : deck.notes) {
     const auto [where, text] = divided(note);
     rows.push_back({1, "", "", "noted", where, text});

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/matrix.hpp"
 #include "core/mesh/mesh.hpp"
 
 namespace clatter::mesh::deck {
@@ -177,7 +178,22 @@ struct Step {
   std::vector<Pressure> pressures;
   std::vector<Rotation> rotations;
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // body force per mass (gravity)
-  std::string temperature;  // field of the mesh, n x 1, temperature; empty: no thermal load
+  RowMatrix accelerations{};     // of the nodes, n x 3: the same on the cells alone; or empty
+  std::vector<Support> moved{};  // values of supports, in this step alone
+  std::string temperature;       // field of the mesh, n x 1, temperature; empty: no thermal load
+};
+
+/// Damping that the deck gives: this times M and times K.
+struct Damping {
+  std::string where, of;   // "GLOBAL DAMPING"
+  double mass = 0.0;       // [1/time]
+  double stiffness = 0.0;  // [time]
+};
+
+/// Something done to cells.
+struct Repair {
+  int64_t cells = 0;  // how many
+  std::string text;   // a sentence, with their number
 };
 
 /// Mass matrix of the cells.
@@ -207,7 +223,8 @@ struct Deck {
   MassForm mass = MassForm::kConsistent;   // of the cells, as the deck's program makes it
   std::map<std::string, int64_t> ignored;  // ignored input, with counts
   std::string passed;                      // Contents::passed_line()
-  std::vector<std::string> renumbered;     // cells: what repair_cells() did
+  std::vector<Damping> damping;            // of the entire model
+  std::vector<Repair> renumbered;          // cells: what repair_cells() did
   std::vector<std::string> notes;          // "file:line: ...": remarks for the user
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
@@ -72,17 +73,17 @@ Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
 void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where, bool say_notes) {
   if (deck.mesh.cell_count() == 0 && deck.springs.empty() && deck.matrices.empty())
     throw InputError(fmt::format("{}: found no solid cells and no springs, expected some", where));
-  for (const std::string& done : repair_cells(deck.mesh, where))
-    deck.renumbered.push_back(fmt::format("{}: {}", where, done));
+  std::ranges::move(repair_cells(deck.mesh, where), std::back_inserter(deck.renumbered));
   for (const Support& retained : deck.retained)
     if (!retained.system.empty())
-      deck.notes.push_back(
-          fmt::format("{}: retained in system {}: coordinates are along the basic axes, and so are "
-                      "those of exports (CD 0)",
-                      retained.where, retained.system));
-  if (say_notes)
-    for (const auto* said : {&deck.renumbered, &deck.notes})
-      for (const std::string& one : *said) warn(one);
+      deck.notes.push_back(fmt::format(
+          "{}: retained along the axes of system {}, the deck's own: exports for the rest "
+          "of the deck have the same components, others directions",
+          retained.where, retained.system));
+  if (say_notes) {
+    for (const Repair& one : deck.renumbered) warn(one.text);
+    for (const std::string& one : deck.notes) warn(one);
+  }
   convert_units(deck, units);
   note_origin(deck, units);
   deck.mesh.surfaces["skin"] = skin_of(boundary_faces(deck.mesh));

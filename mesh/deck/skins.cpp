@@ -6,15 +6,57 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
 #include <set>
 
+#include "core/base/error.hpp"
+#include "mesh/deck/cell_repair.hpp"
+
 namespace clatter::mesh::deck {
+namespace {
+
+/// The cells as repair_cells() will leave them: faces with repeated nodes are triangles.
+std::optional<Mesh> repaired(const Mesh& mesh) {
+  if (!has_repeated_corners(mesh)) return std::nullopt;
+  Mesh copy;
+  copy.nodes = mesh.nodes;
+  copy.cells = mesh.cells;
+  try {
+    repair_cells(copy, mesh.name);
+  } catch (const InputError&) {
+    return std::nullopt;  // it is refused later, with the deck's name
+  }
+  return copy;
+}
+
+/// A quadrilateral with the same corner twice is a triangle.
+void drop_repeated_corner(SkinCell& cell) {
+  const bool quadratic = traits(cell.type).order == 2;
+  if (traits(cell.type).corners != 4) return;
+  for (size_t i = 0; i < 4; ++i) {
+    const size_t j = (i + 1) % 4;
+    if (cell.nodes[i] != cell.nodes[j] || cell.nodes[i] < 0) continue;
+    std::vector<NodeIndex> kept;
+    for (size_t k = 0; k < 4; ++k)
+      if (k != std::max(i, j)) kept.push_back(cell.nodes[k]);
+    for (size_t k = 0; k < 4 && quadratic; ++k)
+      if (k != i) kept.push_back(cell.nodes[4 + k]);
+    cell.type = quadratic ? FaceType::kTri6 : FaceType::kTri3;
+    cell.nodes.fill(0);
+    std::ranges::copy(kept, cell.nodes.begin());
+    return;
+  }
+}
+
+}  // namespace
 
 Skins::Skins(Deck& deck, std::vector<SkinCell> cells) : deck_(deck), cells_(std::move(cells)) {
   found_.resize(cells_.size());
   if (cells_.empty()) return;
-  const FacesByNodes faces(deck.mesh);
+  const std::optional<Mesh> other = repaired(deck.mesh);
+  const FacesByNodes faces(other ? *other : deck.mesh);
   for (size_t c = 0; c < cells_.size(); ++c) {
+    drop_repeated_corner(cells_[c]);
     const auto nodes =
         std::span(cells_[c].nodes).first(static_cast<size_t>(traits(cells_[c].type).nodes));
     if (*std::min_element(nodes.begin(), nodes.end()) < 0) continue;

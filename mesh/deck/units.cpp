@@ -47,6 +47,7 @@ void convert_supports(std::vector<Support>& supports, const UnitSystem& units) {
 
 void convert_step(Step& step, const UnitSystem& units) {
   convert_supports(step.supports, units);
+  convert_supports(step.moved, units);
   for (Step::NodalForce& force : step.forces)
     force.value *= units.force() * (force.direction >= 3 ? units.length : 1.0);
   for (Step::Pressure& pressure : step.pressures) pressure.value *= units.pressure();
@@ -55,6 +56,7 @@ void convert_step(Step& step, const UnitSystem& units) {
     rotation.point *= units.length;
   }
   step.acceleration *= units.length / (units.time * units.time);
+  step.accelerations *= units.length / (units.time * units.time);
 }
 
 }  // namespace
@@ -79,6 +81,10 @@ void convert_units(Deck& deck, const UnitSystem& units) {
     mass.offset *= units.length;
   }
   convert_matrices(deck, units);
+  for (Damping& damping : deck.damping) {
+    damping.mass /= units.time;
+    damping.stiffness *= units.time;
+  }
   convert_supports(deck.supports, units);
   for (Step& step : deck.steps) convert_step(step, units);
 }

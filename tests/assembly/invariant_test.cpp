@@ -63,6 +63,30 @@ TEST(AssemblyInvariant, MassOfABrickIsExact) {
   }
 }
 
+TEST(AssemblyInvariant, LumpedMassOfQuadraticCellsIsPositiveWithAnInertiaOfSecondOrder) {
+  const double m = 7800.0 * 0.3 * 0.2 * 0.1;
+  for (const mesh::CellType type : {mesh::CellType::kTet10, mesh::CellType::kHex20,
+                                    mesh::CellType::kWedge15, mesh::CellType::kPyramid13}) {
+    double coarser = 0.0;
+    for (const int n : {1, 2, 4}) {
+      const mesh::Mesh mesh = block_mesh({n, n, n}, brick({0.3, 0.2, 0.1}), {.type = type});
+      const SparseMatrix M =
+          fe::assemble(mesh, materials_of(mesh), fe::node_pattern(mesh), fe::MassForm::kHrz).M;
+      EXPECT_EQ(M.nonZeros(), M.cols());
+      EXPECT_GT(Eigen::VectorXd(M.diagonal()).minCoeff(), 0.0) << mesh::traits(type).name;
+      const rom::MassProperties mass = properties_of(M, rigid_of(mesh));
+      EXPECT_NEAR(mass.mass / m, 1.0, 1e-13);
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> inertia(mass.inertia);
+      EXPECT_GT(inertia.eigenvalues().minCoeff(), 0.0);
+      const double error = std::abs(mass.inertia(2, 2) / (m / 12.0 * 0.13) - 1.0);
+      if (n > 1) {
+        EXPECT_GT(coarser / error, 3.5) << mesh::traits(type).name << " " << n;
+      }
+      coarser = error;
+    }
+  }
+}
+
 TEST(AssemblyInvariant, MatricesAndIntegralsGiveTheSameTenMassProperties) {
   const mesh::Mesh mesh = curved_ring();
   const fe::NodalMatrices matrices = fe::assemble(mesh, materials_of(mesh), fe::node_pattern(mesh));

@@ -133,6 +133,32 @@ direction = [0.0, 0.0, -1.0]
   EXPECT_NEAR(model.mass.mass / m, 1.0, 1e-13);
 }
 
+// M a: the uniform field is the load by direction, and half of the nodes have half of M's columns.
+TEST(LoadCase, AFieldOfAccelerationsActsThroughTheMassMatrix) {
+  mesh::Mesh mesh = bar();
+  const Eigen::Index n = mesh.nodes.rows();
+  mesh.fields["all"] = Eigen::RowVector3d(0.0, 3.0, 4.0).replicate(n, 1);
+  mesh.fields["some"] = mesh.fields["all"];
+  mesh.fields["some"].topRows(n / 2).setZero();
+  const auto load = [](const std::string& name, const std::string& body) {
+    return "[[load]]\nname = \"" + name + "\"\nkind = \"acceleration\"\n" + body + "\n";
+  };
+  const fe::FeModel model = build(mesh, load("by_direction", "direction = [0.0, 0.6, 0.8]") +
+                                            load("all", "field = \"all\"") +
+                                            load("some", "field = \"some\"\nscale = 2.0"))
+                                .model;
+  const Eigen::VectorXd& uniform = model.loads.at("by_direction");
+  EXPECT_LT((model.loads.at("all") - 5.0 * uniform).norm(), 1e-13 * 5.0 * uniform.norm());
+  const RowMatrix some = mesh.fields["some"];
+  const Eigen::VectorXd expected =
+      2.0 * full(model.M) * Eigen::Map<const Eigen::VectorXd>(some.data(), some.size());
+  EXPECT_LT((model.loads.at("some") - expected).norm(), 1e-13 * expected.norm());
+  test::expect_parts(test::refusal_of([&] {
+                       build(mesh, load("a", "field = \"all\"\ndirection = [1.0, 0.0, 0.0]"));
+                     }),
+                     {"field: direction and field exclude each other"});
+}
+
 TEST(LoadCase, ForceAndMomentOnAReferenceNodeAreItsCoordinatesForces) {
   const fe::FeModel model = build(bar(), R"(
 [[coupling]]

@@ -53,6 +53,16 @@ TEST(Points, ASingleFollowerDoesNotHoldItsReferencesRotation) {
                {"motion of a that moves nothing"});
 }
 
+constexpr const char* kLinkFromAToB = R"(
+[[point]]
+name = "on_a"
+node_set = "a"
+[[coupling]]
+type = "rigid"
+point = "on_a"
+node_set = "b"
+)";
+
 // Both nodes turn freely, so that a rigid link between them is a rod: (u_b - u_a) . r = 0.
 TEST(Points, ALinkOfTwoNodesIsARodInAnyDirection) {
   mesh::Mesh mesh = bar();
@@ -62,15 +72,7 @@ TEST(Points, ALinkOfTwoNodesIsARodInAnyDirection) {
   const Eigen::RowVector3d r =
       mesh.nodes.row(mesh.node_sets["b"][0]) - mesh.nodes.row(mesh.node_sets["a"][0]);
   ASSERT_TRUE((r.array().abs() > 1e-3).all());  // skew
-  const BuiltModel link = build(mesh, std::string(kFoot) + R"(
-[[point]]
-name = "on_a"
-node_set = "a"
-[[coupling]]
-type = "rigid"
-point = "on_a"
-node_set = "b"
-)");
+  const BuiltModel link = build(mesh, std::string(kFoot) + kLinkFromAToB);
   std::string rod = std::string(kFoot) + "[[equation]]\nterms = [\n";
   for (int d = 0; d < 3; ++d)
     for (const auto& [set, sign] : {std::pair("b", 1.0), std::pair("a", -1.0)})
@@ -85,14 +87,7 @@ node_set = "b"
   const Eigen::VectorXd want = solve_model(equation.model, f.head(nodal));
   EXPECT_LT((u - want).norm(), kSolve * want.norm());
   // About its line it has no inertia: a mass that turns there needs more.
-  expect_parts(support_refusal(mesh, std::string(kFoot) + R"(
-[[point]]
-name = "on_a"
-node_set = "a"
-[[coupling]]
-type = "rigid"
-point = "on_a"
-node_set = "b"
+  expect_parts(support_refusal(mesh, std::string(kFoot) + kLinkFromAToB + R"(
 [[point_mass]]
 on = "on_a"
 mass = 1.0
@@ -130,6 +125,74 @@ directions = ["y", "rz"]
                                "\"n0\"\ndirections = \"xy\"\n[[point_mass]]\non = "
                                "\"n\"\nmass = 1.0\n"),
                {"point_mass on n", "found 2 directions"});
+}
+
+constexpr const char* kTurned =
+    "[system.skew]\norigin = [0.01, 0.02, 0.03]\nz = [1.0, 2.0, 2.0]\nx = [2.0, 1.0, -2.0]\n";
+
+TEST(Nodes, AreKeptAlongTheAxesOfASystem) {
+  const mesh::Mesh mesh = bar();
+  const std::string point =
+      std::string(kFoot) + kTurned +
+      "[[point]]\nname = \"hub\"\nat = [0.05, 0.05, 0.4]\n[[coupling]]\ntype = \"rigid\"\npoint = "
+      "\"hub\"\nsurface = \"z1\"\n";
+  const std::string kept = point + R"(
+[[nodes]]
+name = "retained"
+[[nodes.term]]
+node_set = "n0"
+directions = "xz"
+system = "skew"
+[[nodes.term]]
+points = ["hub"]
+directions = ["x", "y", "z", "rx", "ry", "rz"]
+system = "skew"
+)";
+  const fe::FeModel plain = build(mesh, point).model, model = build(mesh, kept).model;
+  ASSERT_EQ(model.size(), plain.size());
+  // The same body: the same displacements under the same forces.
+  const Eigen::VectorXd f = some_forces(3 * mesh.nodes.rows() + 6);
+  const Eigen::VectorXd u = solve_model(model, f), want = solve_model(plain, f);
+  EXPECT_LT((u - want).norm(), kSolve * want.norm());
+  // q = D u, in the model's coordinates and of its rigid motions.
+  const rom::DofSet& set = model.set("retained");
+  EXPECT_EQ(set.components, (std::vector<int32_t>{1, 3, 1, 2, 3, 4, 5, 6}));
+  const Eigen::MatrixXd T = model.T;
+  const Eigen::Index node = 3 * mesh.node_sets.at("n0")[0];
+  Eigen::Matrix3d frame;
+  frame << 2, -2, 1, 1, 2, 2, -2, -1, 2;
+  frame /= 3.0;
+  EXPECT_EQ(set.direction.row(0).transpose(), set.direction.row(2).transpose());
+  for (const auto& [k, axis] : {std::pair(0, 0), std::pair(1, 2)}) {
+    EXPECT_LT((set.direction.row(k).transpose() - frame.col(axis)).norm(), 1e-15);
+    // u of the node follows from its three coordinates; along the kept axes by these alone.
+    const Eigen::RowVectorXd row = frame.col(axis).transpose() * T.middleRows(node, 3);
+    Eigen::RowVectorXd unit = Eigen::RowVectorXd::Zero(model.size());
+    unit(set.dofs[static_cast<size_t>(k)]) = 1.0;
+    EXPECT_LT((row - unit).norm(), 1e-14);
+  }
+  const Eigen::MatrixXd hub = model.points.T;
+  for (int d = 0; d < 6; ++d)
+    EXPECT_LT((frame.col(d % 3).transpose() * hub.middleRows(d < 3 ? 0 : 3, 3) -
+               Eigen::RowVectorXd::Unit(model.size(), set.dofs[static_cast<size_t>(2 + d)]))
+                  .norm(),
+              1e-14);
+}
+
+TEST(Nodes, KeptAlongTwoKindsOfAxesAreRefused) {
+  const std::string turned =
+      std::string(kTurned) + "[[nodes]]\nname = \"a\"\nnode_set = \"n0\"\nsystem = \"skew\"\n";
+  expect_parts(support_refusal(bar(), turned + "[[nodes]]\nname = \"b\"\nnode_set = \"n0\"\n"),
+               {"nodes b", "is kept along x y z and along the axes of a system"});
+  // A support along one of these axes leaves the others.
+  const std::string held = std::string(kFoot) + kTurned +
+                           "[[support]]\nnode_set = \"n0\"\ndirections = \"y\"\nsystem = \"skew\"\n"
+                           "[[nodes]]\nname = \"a\"\n[[nodes.term]]\nnode_set = \"n0\"\nsystem = "
+                           "\"skew\"\ndirections = ";
+  EXPECT_EQ(build(bar(), held + "\"xz\"\n").model.set("a").dofs.size(), 2u);
+  expect_parts(
+      support_refusal(bar(), held + "\"xyz\"\n"),
+      {"nodes a", "found rows that supports, sensors or other couplings already determine"});
 }
 
 TEST(Points, OnAMeshNodeMoveWithIt) {

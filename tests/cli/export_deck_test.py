@@ -163,13 +163,62 @@ class NastranResidual(Part):
         self.export("part.pch")
         self.assertEqual([entry[1] for entry in self.entries() if entry[0] == "SPOINT"], [str(10001 + k) for k in range(self.modes())])
 
-    def test_displacement_axes_that_an_export_does_not_have_are_named(self):
-        deck = bar().replace("GRID,119,,10.0,10.0,40.0", "GRID,119,,10.0,10.0,40.0,7")
+    def test_numbers_of_scalar_points_are_not_given_again(self):
+        self.condense(bar() + "SPOINT,20000\nCELAS4,9,5.,20000\nASET1,123456,900\nENDDATA\n", ["point_900"], count=2)
+        self.export("part.pch")
+        self.assertEqual([entry[1] for entry in self.entries() if entry[0] == "SPOINT"], [str(100001 + k) for k in range(self.modes())])
+
+    SKEW = np.array([[2.0, -2.0, 1.0], [1.0, 2.0, 2.0], [-2.0, -1.0, 2.0]]) / 3.0  # columns: x, y, z
+    CORD = "CORD2R,7,,0.,0.,0.,1.,2.,2.\n+,2.,1.,-2.\n"
+
+    def of_grids(self, name, grids, matrix="KCLATTR"):
+        """The matrix of the six components of grids, or of three."""
+        entries = read_dmig(self.entries(name))[0][matrix]
+        return np.array([[entries.get((a, b), entries.get((b, a), 0.0)) for b in grids] for a in grids])
+
+    def test_components_of_a_grid_with_its_own_axes_are_along_these(self):
+        plain = bar() + "ASET1,123456,900\nASET1,123,109\nENDDATA\n"
+        turned = self.CORD + plain.replace("GRID,900,,5.,5.,45.0", "GRID,900,,5.,5.,45.0,7").replace(
+            "GRID,109,,0.0,0.0,20.0", "GRID,109,,0.0,0.0,20.0,7")
+        rows = [(900, c) for c in range(1, 7)] + [(109, c) for c in range(1, 4)]
+        R = np.kron(np.eye(3), self.SKEW)
+        self.condense(plain, ["retained"])
+        self.export("plain.pch")
+        self.condense(turned, ["retained"])
+        self.export("turned.pch")
+        for matrix in ("KCLATTR", "MCLATTR"):
+            want = R.T @ self.of_grids("plain.pch", rows, matrix) @ R
+            np.testing.assert_allclose(self.of_grids("turned.pch", rows, matrix), want, atol=1e-8 * abs(want).max())
+        text = (self.folder / "turned.pch").read_text()
+        self.assertIn("components are along the displacement axes of their grids (CD)", text)
+        self.assertIn("$ GRID 900: keep the deck's, with its CD", text)
+        self.export("own.pch", "--deck-nodes")
+        grid = next(entry for entry in self.entries("own.pch") if entry[:2] == ["GRID", "900"])
+        self.assertEqual(grid[6], "900")  # CD: the system beside it
+        system = next(entry for entry in self.entries("own.pch") if entry[:2] == ["CORD2R", "900"])
+        axes = [float(x.replace("D", "E")) for x in system[6:12]]
+        np.testing.assert_allclose(axes, [*self.SKEW[:, 2], *self.SKEW[:, 0]], atol=1e-10)
+
+    def test_single_components_of_such_a_grid_are_retained_and_no_others(self):
+        # x and y of the system are y and -x of the basic one.
+        cord = "CORD2R,7,,0.,0.,0.,0.,0.,1.\n+,0.,1.,0.\n"
+        self.condense(bar() + "ASET1,2,109\nASET1,13,111\nENDDATA\n", ["retained"])
+        self.export("plain.pch")
+        deck = cord + bar().replace("GRID,109,,0.0,0.0,20.0", "GRID,109,,0.0,0.0,20.0,7").replace(
+            "GRID,111,,10.0,10.0,20.0", "GRID,111,,10.0,10.0,20.0,7")
+        self.condense(deck + "ASET1,1,109\nASET1,23,111\nENDDATA\n", ["retained"])
+        self.export("turned.pch")
+        want = self.of_grids("plain.pch", [(109, 2), (111, 1), (111, 3)])
+        S = np.diag([1.0, -1.0, 1.0])
+        np.testing.assert_allclose(self.of_grids("turned.pch", [(109, 1), (111, 2), (111, 3)]), S @ want @ S,
+                                   atol=1e-8 * abs(want).max())
+
+    def test_axes_of_their_own_are_said_when_the_deck_is_read(self):
         (self.folder / "turned.bdf").write_text(
-            deck + "CORD2R,7,,0.,0.,0.,0.,0.,1.\n+,0.,1.,0.\nASET1,123,119\nENDDATA\n")
+            self.CORD + bar().replace("GRID,111,,10.0,10.0,20.0", "GRID,111,,10.0,10.0,20.0,7") + "ASET1,123,111\nENDDATA\n")
         done = stages.run_stage("mesh", "turned.bdf", "--units", "mm-t-s", "-o", "turned.mesh.h5", folder=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("along the basic axes, and so are those of exports (CD 0)", done.stderr)
+        self.assertIn("retained along the axes of system cord_7, the deck's own", done.stderr)
 
     def test_a_part_without_a_deck_is_numbered_from_one_in_si(self):
         with h5py.File(self.folder / "part.rom.h5", "r+") as rom:
@@ -223,9 +272,9 @@ class CalculixResidual(Part):
         rows = [line.split() for line in (self.folder / f"{name}.dat").read_text().splitlines()]
         return np.array([float(row[3]) for row in rows if len(row) == 5 and row[0].isdigit()])[:count]
 
-    def retain(self, bricks, nodes):
+    def retain(self, bricks, nodes, more=""):
         retained = "".join(f"{node},1,3\n" for node in nodes)
-        self.condense(bricks.text() + Bricks.held(bricks.level(0.0)) +
+        self.condense(bricks.text() + more + Bricks.held(bricks.level(0.0)) +
                       f"*STEP\n*SUBSTRUCTURE GENERATE\n*RETAINED NODAL DOFS,SORTED=NO\n{retained}*END STEP\n",
                       ["retained"], count=30)
 
@@ -236,6 +285,19 @@ class CalculixResidual(Part):
         self.export("super.inp")
         found = self.calculix_hz("rest", upper.text() + "*INCLUDE,INPUT=super.inp\n", 6)
         # 30 fixed-interface modes: the certificate's error at the sixth frequency; seven digits are printed.
+        np.testing.assert_allclose(found, expected, rtol=1e-5)
+
+    def test_nodes_with_transform_are_joined_along_their_axes(self):
+        whole, lower, upper = Bricks(range(6)), Bricks(range(4)), Bricks(range(4, 6))
+        expected = self.calculix_hz("whole", whole.text() + Bricks.held(whole.level(0.0)), 6)
+        nodes = lower.level(40.0)
+        turned = "*NSET,NSET=TURNED\n" + "".join(f"{node},\n" for node in nodes)
+        self.retain(lower, nodes, turned + "*TRANSFORM,NSET=TURNED,TYPE=R\n2.,1.,-2.,-2.,2.,-1.\n")
+        with h5py.File(self.folder / "part.rom.h5") as rom:
+            directions = rom["sets/retained/direction"][()]
+        np.testing.assert_allclose(directions[0], [2.0 / 3.0, 1.0 / 3.0, -2.0 / 3.0], atol=1e-14)
+        self.export("super.inp")
+        found = self.calculix_hz("rest", upper.text() + "*INCLUDE,INPUT=super.inp\n", 6)
         np.testing.assert_allclose(found, expected, rtol=1e-5)
 
     def test_the_node_of_the_rotations_is_the_rot_node_of_a_rigid_body_in_the_rest(self):

@@ -30,13 +30,13 @@ FAMILIES = {
     "solids": r"CTETRA|CPYRAM?|CPENTA|CHEXA",
     "rigid elements": r"RBE[123]|RBAR1?|RROD|RJOINT",
     "MPC": r"MPC",
-    "springs": r"CELAS\d|CBUSH",
+    "springs": r"CELAS\d|CBUSH|CGAP",
     "dampers": r"CDAMP\d|CVISC",
     "masses": r"CONM\d|CMASS\d",
     "DMIG": r"DMIG",
     "bars": r"CBAR|CBEAM|CBEND|CROD|CONROD|CTUBE",
     "shells": r"CQUAD\w|CTRIA\w|CSHEAR",
-    "contact": r"BCBODY|BCONP|BCONTACT|CGAP",
+    "contact": r"BCBODY|BCONP|BCONTACT",
     "finite strain": r"MATHP|PLSOLID",
 }
 # Those that clatter does not have yet; beside solids, shells can be faces of them.

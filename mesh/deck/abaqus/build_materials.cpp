@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "mesh/deck/abaqus/damping.hpp"
 #include "mesh/deck/abaqus/model.hpp"
 
 namespace clatter::mesh::deck::abaqus {
@@ -180,12 +181,10 @@ void read_damping(Model& model, const Card& card, Material* material) {
   constexpr int64_t kNoMore = 0;  // it is counted
   model.refusals.contents().pass("keyword", keyword.name, model.source, card.origin(),
                                  "damping, offered to the recipe", kNoMore);
-  const auto value = [&](const char* name) {
-    const std::string* text = keyword.find(name);
-    return text == nullptr ? 0.0 : Fields(*text, model.source, card.origin()).number(0, name);
-  };
-  material->mass_damping = value("ALPHA");
-  material->stiffness_damping = value("BETA");
+  const auto found = rayleigh_of(card, model.source);
+  if (!found) return;
+  material->mass_damping = found->mass;
+  material->stiffness_damping = found->stiffness;
 }
 
 // *ELASTIC, *DENSITY, *EXPANSION or *DAMPING of `material`, none if *MATERIAL itself was refused. A

@@ -14,6 +14,7 @@ constexpr const char* kOutput = "output";
 constexpr const char* kNonlinear = "of a nonlinear analysis";
 constexpr const char* kContact = "contact, beyond whether it is bonded";
 constexpr const char* kDamping = "damping";
+constexpr const char* kOffered = "damping, offered to the recipe";
 constexpr const char* kHeat = "of heat transfer";
 constexpr const char* kShells = "of shells";
 constexpr const char* kThin =
@@ -152,13 +153,13 @@ constexpr std::array kRoles = {
     KeywordRole{"FILTER", Role::kHarmless, kOutput},
     KeywordRole{"GAP CONDUCTANCE", Role::kHarmless, kHeat},
     KeywordRole{"GAP HEAT GENERATION", Role::kHarmless, kHeat},
-    KeywordRole{"GLOBAL DAMPING", Role::kHarmless, kDamping},
+    KeywordRole{"GLOBAL DAMPING", Role::kDamping, kOffered},
     KeywordRole{"HEADING", Role::kHarmless, "title"},
     KeywordRole{"HOURGLASS STIFFNESS", Role::kHarmless, "of reduced integration in Abaqus"},
     KeywordRole{"INCREMENTATION OUTPUT", Role::kHarmless, kOutput},
     KeywordRole{"INTEGRATED OUTPUT", Role::kHarmless, kOutput},
     KeywordRole{"MATRIX OUTPUT", Role::kHarmless, kOutput},
-    KeywordRole{"MODAL DAMPING", Role::kHarmless, kDamping},
+    KeywordRole{"MODAL DAMPING", Role::kDamping, kOffered},
     KeywordRole{"MODAL FILE", Role::kHarmless, kOutput},
     KeywordRole{"MODAL OUTPUT", Role::kHarmless, kOutput},
     KeywordRole{"MODAL PRINT", Role::kHarmless, kOutput},
@@ -237,6 +238,7 @@ Fate fate_of(Role role) {
     case Role::kProcedure:
       return Fate::kRefused;
     case Role::kHarmless:
+    case Role::kDamping:
     case Role::kInteraction:
     case Role::kMaterialIdle:
       return Fate::kPassed;

@@ -12,6 +12,7 @@ namespace clatter::mesh::deck::abaqus {
 enum class Role {
   kUnknown,      // refused by name
   kHarmless,     // changes neither K nor M: passed over with its data lines
+  kDamping,      // the same, but its alpha and beta are offered to the recipe
   kInteraction,  // the same, but kept: it decides whether a contact is bonded
   kNode,         // tables, read directly
   kElement,

@@ -31,6 +31,17 @@ constexpr std::array<std::pair<char, std::string_view>, 4> kVariants = {
      {'S', "improved stress at the surface"},
      {'T', "temperatures as unknowns"}}};
 
+// Elements that a solid of the same nodes replaces.
+constexpr std::string_view kContinuumShell =
+    "a continuum shell; the same nodes as TYPE=C3D8I (bends like a shell, one element through the "
+    "thickness) with a *SOLID SECTION replace it; for layers, one element and *ORIENTATION each";
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kReplaced = {
+    {{"SC6R",
+      "a continuum shell; the same nodes as TYPE=C3D6 or, with mid-side nodes, C3D15 and a *SOLID "
+      "SECTION replace it: C3D6 is too stiff in bending, take several through the thickness"},
+     {"SC8R", kContinuumShell},
+     {"CSS8", kContinuumShell}}};
+
 // Families of two-dimensional elements; the number of nodes follows.
 constexpr std::array<std::string_view, 8> kThinFamilies = {"CPS",  "CPE", "SFM3D", "M3D",
                                                            "STRI", "R3D", "DS",    "S"};
@@ -94,6 +105,16 @@ std::optional<SolidType> solid_type(std::string_view name) {
     return solid;
   }
   return std::nullopt;
+}
+
+std::span<const std::pair<std::string_view, std::string_view>> replaced_types() {
+  return kReplaced;
+}
+
+std::string_view replacement_of(std::string_view name) {
+  for (const auto& [type, what] : kReplaced)
+    if (type == folded(name)) return what;
+  return "";
 }
 
 std::optional<FaceType> thin_type(std::string_view name) {

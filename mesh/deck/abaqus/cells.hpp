@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "core/mesh/cell.hpp"
 #include "mesh/deck/deck.hpp"
@@ -25,6 +26,11 @@ struct SolidType {
 std::span<const SolidType> solid_types();
 /// By folded name; none for types that are not supported solids.
 std::optional<SolidType> solid_type(std::string_view name);
+
+/// Why an element type is refused, and what replaces it; empty for types without an entry.
+std::string_view replacement_of(std::string_view name);
+/// Those types.
+std::span<const std::pair<std::string_view, std::string_view>> replaced_types();
 
 /// The face that a two-dimensional element is (CPS6, S3, STRI65, M3D4R, SFM3D8), by folded name;
 /// none for other types.

@@ -11,9 +11,4 @@ namespace clatter::mesh::deck::abaqus {
 void generate(const Card& card, Scope& scope, const LocalSystem& system, const Source& source,
               Ignore& ignore);
 
-/// Numbers of the members of a set, each once, ascending. InputError at `origin` when there is none
-/// of that name, or when it holds itself.
-std::vector<int32_t> numbers_of_set(const Scope& scope, const IdSets& sets, const std::string& name,
-                                    const Source& source, Origin origin);
-
 }  // namespace clatter::mesh::deck::abaqus

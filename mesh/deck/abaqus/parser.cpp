@@ -6,35 +6,13 @@
 #include <algorithm>
 
 #include "mesh/deck/abaqus/cards.hpp"
+#include "mesh/deck/abaqus/damping.hpp"
 #include "mesh/deck/abaqus/generate.hpp"
 #include "mesh/deck/abaqus/read_cells.hpp"
+#include "mesh/deck/abaqus/read_sets.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace {
-
-// An entry of a set: a number, or the name of another set.
-void add_member(std::string_view field, Origin origin, SetChunk& chunk) {
-  if (field.empty()) return;
-  if (const auto id = to_integer(field)) {
-    chunk.ids.push_back(*id);
-  } else {
-    chunk.names.emplace_back(std::string(field), origin);
-  }
-}
-
-IdRange range_of(const Lines& lines) {
-  const Fields fields(lines.data(), lines.source(), lines.origin());
-  constexpr int32_t kMost = std::numeric_limits<int32_t>::max();
-  IdRange range;
-  range.first = fields.integer(0, "first number", 1, kMost);
-  range.last = fields.blank(1) ? range.first : fields.integer(1, "last number", 1, kMost);
-  range.step = fields.blank(2) ? 1 : fields.integer(2, "step", 1, kMost);
-  fields.at_most(3, "first, last, step");
-  if (range.last < range.first) {
-    fields.fail(fmt::format("found {} to {}, expected ascending numbers", range.first, range.last));
-  }
-  return range;
-}
 
 class Parser {
  public:
@@ -137,6 +115,7 @@ class Parser {
     const bool left_out = step_ >= 0 && (left_out_ || last);
     record(keyword, ignored, left_out);
     if (ignored) return skip_data();
+    if (role == Role::kDamping) return read_damping();
     if (left_out) return left_out_ ? read_left_out(role) : begin_left_out(keyword);
     check_context(keyword, role);
     if (role == Role::kMaterial) parent_ = Role::kMaterial;
@@ -162,7 +141,7 @@ class Parser {
       case Role::kGenerate:
         return generate_rows();
       case Role::kSet:
-        return read_set();
+        return read_set(lines_, *scope_, ignore_);
       case Role::kStructure:
         return read_structure();
       case Role::kStepBegin:
@@ -190,7 +169,7 @@ class Parser {
     content.fate = row == nullptr ? Fate::kRefused : fate_of(row->role);
     if (row != nullptr) content.meaning = row->meaning;
     if (ignored) content.fate = Fate::kIgnored;
-    if (!left_out) return;
+    if (!left_out || (row != nullptr && row->role == Role::kDamping)) return;
     content.fate = Fate::kPassed;
     content.meaning = "in a step that is left out";
   }
@@ -244,7 +223,20 @@ class Parser {
 
   Lines::Kind read_card() {
     scope_->cards.emplace_back(lines_.keyword());
-    Card& card = scope_->cards.back();
+    return read_data(scope_->cards.back());
+  }
+
+  // Damping of a step, also of one that is left out: D = alpha M + beta K, or nothing to offer.
+  Lines::Kind read_damping() {
+    Card card(lines_.keyword());
+    const Lines::Kind kind = read_data(card);
+    refusals_.attempt([&] {
+      if (const auto found = rayleigh_of(card, source_)) deck_.damping.push_back(*found);
+    });
+    return kind;
+  }
+
+  Lines::Kind read_data(Card& card) {
     Lines::Kind kind = lines_.next();
     for (; kind == Lines::Kind::kData; kind = lines_.next())
       card.add(lines_.data(), lines_.origin());
@@ -264,9 +256,7 @@ class Parser {
   // *SYSTEM and the keywords that make nodes and elements from those before.
   Lines::Kind generate_rows() {
     Card card(lines_.keyword());
-    Lines::Kind kind = lines_.next();
-    for (; kind == Lines::Kind::kData; kind = lines_.next())
-      card.add(lines_.data(), lines_.origin());
+    const Lines::Kind kind = read_data(card);
     if (incomplete_) return kind;  // tables have gaps
     const bool done = refusals_.attempt([&] {
       if (card.keyword().key == "SYSTEM") {
@@ -276,35 +266,6 @@ class Parser {
       }
     });
     incomplete_ = incomplete_ || !done;
-    return kind;
-  }
-
-  Lines::Kind read_set() {
-    const Keyword keyword = lines_.keyword();
-    const bool of_nodes = keyword.key == "NSET";
-    keyword.allow({of_nodes ? "NSET" : "ELSET", "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED",
-                   of_nodes ? "ELSET" : "ELSET"},
-                  source_, ignore_);
-    IdSets& sets = of_nodes ? scope_->node_sets : scope_->element_sets;
-    const std::string& name = keyword.required(of_nodes ? "NSET" : "ELSET", source_);
-    SetChunk& chunk = new_chunk(sets, name, keyword.origin);
-    if (keyword.has("UNSORTED")) sets[folded(name)].unsorted = true;
-    if (const std::string* instance = keyword.find("INSTANCE")) chunk.instance = *instance;
-    if (of_nodes && keyword.has("ELSET")) {
-      chunk.elements_of.push_back(keyword.required("ELSET", source_));
-    }
-    const bool generate = keyword.has("GENERATE");
-    Lines::Kind kind = lines_.next();
-    for (; kind == Lines::Kind::kData; kind = lines_.next()) {
-      if (generate) {
-        chunk.ranges.push_back(range_of(lines_));
-        continue;
-      }
-      chunk.id_lines.emplace_back(chunk.ids.size(), lines_.origin());
-      FieldWalk walk(lines_.data());
-      std::string_view field;
-      while (walk.next(&field)) add_member(field, lines_.origin(), chunk);
-    }
     return kind;
   }
 
@@ -421,14 +382,6 @@ class Parser {
 };
 
 }  // namespace
-
-SetChunk& new_chunk(IdSets& sets, const std::string& name, Origin origin) {
-  IdSet& set = sets[folded(name)];
-  if (set.chunks.empty()) set.name = name;
-  set.chunks.emplace_back();
-  set.chunks.back().origin = origin;
-  return set.chunks.back();
-}
 
 RawDeck parse(Source& source, Ignore& ignore, Refusals& refusals) {
   return Parser(source, ignore, refusals).run();

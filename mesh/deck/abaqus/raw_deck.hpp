@@ -99,6 +99,7 @@ struct RawDeck {
   std::vector<Scope> parts;
   std::vector<InstanceLine> instances;
   std::vector<std::string> notes;  // Deck::notes
+  std::vector<Damping> damping;    // Deck::damping
 };
 
 /// The chunk that a new keyword adds to; creates the set if needed.

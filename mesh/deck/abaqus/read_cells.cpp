@@ -279,12 +279,15 @@ Lines::Kind read_elements(Lines& lines, Scope& scope, Ignore& ignore, Refusals& 
     notes.try_emplace(
         type, fmt::format("{}: {} is read as {}, without {}", lines.source().where(keyword.origin),
                           type, solid->name, solid->variant));
-  if (content.fate == Fate::kRefused)
+  if (content.fate == Fate::kRefused) {
+    const std::string_view instead = replacement_of(type);
+    const std::string why = instead.empty() ? "" : fmt::format(": {}", instead);
     refusals.add(
-        fmt::format("{}: element type {} is not supported; ignore = [\"{}\"] skips it, and "
+        fmt::format("{}: element type {} is not supported{}; ignore = [\"{}\"] skips it, and "
                     "with it its stiffness and mass: {} of the recipe replace them",
-                    lines.source().where(keyword.origin), type, type,
+                    lines.source().where(keyword.origin), type, why, type,
                     "[[spring]], [[coupling]] and [[point_mass]]"));
+  }
   return kind;
 }
 
@@ -296,6 +299,8 @@ std::vector<Listed> listed_elements() {
   for (const auto& [name, nodes] : kPointTypes)
     rows.push_back(
         {std::string(name), Fate::kRead, nodes == 1 ? "at one node" : "between two nodes"});
+  for (const auto& [name, instead] : replaced_types())
+    rows.push_back({std::string(name), Fate::kRefused, std::string(instead)});
   return rows;
 }
 

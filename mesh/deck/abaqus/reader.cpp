@@ -15,12 +15,14 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   Refusals refusals(options.contents);
   RawDeck raw = parse(source, ignore, refusals);
   std::vector<std::string> notes = std::move(raw.notes);
+  std::vector<Damping> damping = std::move(raw.damping);
   std::unique_ptr<Model> model_owner;
   refusals.require(
       [&] { model_owner = std::make_unique<Model>(source, std::move(raw), ignore, refusals); });
   Model& model = *model_owner;
   model.deck.mesh.name = name;
   model.deck.notes = std::move(notes);
+  model.deck.damping = std::move(damping);
   build_materials(model);
   build_systems(model);
   refusals.require([&] { build_mesh(model); });

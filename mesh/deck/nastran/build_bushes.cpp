@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CBUSH and PBUSH: springs along three axes and about them, between two points of the bush that
-// move with its grids.
+// move with its grids. CGAP and PGAP: springs along three axes between its grids, of the state in
+// which the gap begins, as in a linear solution of Nastran.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <map>
 
 #include "mesh/deck/nastran/model.hpp"
 
@@ -18,8 +20,8 @@ constexpr double kCoincident = 1e-12;  // of the coordinates
 
 class Bush {
  public:
-  Bush(Model& model, const RawBush& raw, const RawBushProperty& property)
-      : model_(model), raw_(raw), stiffness_(property.stiffness) {
+  Bush(Model& model, const RawBush& raw, const std::array<double, 6>& stiffness)
+      : model_(model), raw_(raw), stiffness_(stiffness) {
     ends_ = {model.require(raw.grids[0], raw.origin)};
     if (raw.grids[1] != 0) ends_.push_back(model.require(raw.grids[1], raw.origin));
     for (const NodeIndex end : ends_) at_.push_back(model.node_map.position(end));
@@ -56,6 +58,7 @@ class Bush {
   }
 
   // CID; else x along GA to GB with the orientation in the plane x y; without one, K1 and K4 alone.
+  // A gap is the same along y and z.
   Matrix3d axes_of() const {
     if (raw_.system >= 0) return model_.systems.directions(raw_.system, at_[0], raw_.origin);
     if (coincident())
@@ -73,7 +76,7 @@ class Bush {
     }
     Vector3d z = axes.col(0).cross(in_plane);
     if (!(z.norm() > 1e-6 * in_plane.norm())) {
-      if (std::any_of(stiffness_.begin(), stiffness_.end(), [&](const double& k) {
+      if (!raw_.is_gap && std::any_of(stiffness_.begin(), stiffness_.end(), [&](const double& k) {
             return k > 0.0 && (&k - stiffness_.data()) % 3 != 0;
           }))
         fail("found no orientation beside its axis, expected X1 X2 X3, GO or CID");
@@ -96,13 +99,14 @@ class Bush {
     const double sign = ends_.size() == 2 && end == 0 ? -1.0 : 1.0;
     const int base = k < 3 ? 0 : 3;
     for (int d = 0; d < 3; ++d) add_term(spring.terms, ends_[end], base + d, sign * t[d]);
-    if (k >= 3 || !model_.node_map.is_point(ends_[end])) return;
+    if (k >= 3 || raw_.is_gap || !model_.node_map.is_point(ends_[end])) return;
     const Vector3d lever = (centre - at_[end]).cross(t);
     for (int d = 0; d < 3; ++d) add_term(spring.terms, ends_[end], 3 + d, sign * lever[d]);
   }
 
   [[noreturn]] void fail(const std::string& message) const {
-    model_.source.fail(raw_.origin, fmt::format("CBUSH {}: {}", raw_.id, message));
+    model_.source.fail(raw_.origin,
+                       fmt::format("{} {}: {}", raw_.is_gap ? "CGAP" : "CBUSH", raw_.id, message));
   }
 
   Model& model_;
@@ -112,19 +116,43 @@ class Bush {
   std::vector<Vector3d> at_;
 };
 
-void add_bush(Model& model, const RawBush& raw) {
-  const auto property = model.raw.bush_properties.find(raw.property);
-  if (property == model.raw.bush_properties.end())
-    model.source.fail(raw.origin, fmt::format("CBUSH {}: found no PBUSH {}", raw.id, raw.property));
-  Bush(model, raw, property->second).build();
+// The property of a bush or gap; InputError when there is none.
+template <class Property>
+const Property& property_of(const Model& model, const RawBush& raw,
+                            const std::map<int32_t, Property>& all) {
+  if (const auto found = all.find(raw.property); found != all.end()) return found->second;
+  const char* kind = raw.is_gap ? "GAP" : "BUSH";
+  model.source.fail(raw.origin,
+                    fmt::format("C{0} {1}: found no P{0} {2}", kind, raw.id, raw.property));
+}
+
+struct GapCount {
+  Origin origin = 0;
+  int64_t closed = 0, open = 0;
+};
+
+void add_gap(Model& model, const RawBush& raw, GapCount& count) {
+  const RawGapProperty& gap = property_of(model, raw, model.raw.gap_properties);
+  Bush(model, raw, {gap.along, gap.across, gap.across, 0.0, 0.0, 0.0}).build();
+  if (count.closed + count.open == 0) count.origin = raw.origin;
+  ++(gap.is_open ? count.open : count.closed);
 }
 
 }  // namespace
 
 void build_bushes(Model& model) {
+  GapCount gaps;
   for (const RawBush& raw : model.raw.bushes) {
-    model.refusals.attempt([&] { add_bush(model, raw); });
+    model.refusals.attempt([&] {
+      if (raw.is_gap) return add_gap(model, raw, gaps);
+      Bush(model, raw, property_of(model, raw, model.raw.bush_properties).stiffness).build();
+    });
   }
+  if (gaps.closed + gaps.open > 0)
+    model.deck.notes.push_back(
+        fmt::format("{}: CGAP stay as they begin, as in a linear solution: {} closed (KA, KT), {} "
+                    "open (KB); preloads F0 are left out",
+                    model.source.where(gaps.origin), gaps.closed, gaps.open));
 }
 
 }  // namespace clatter::mesh::deck::nastran

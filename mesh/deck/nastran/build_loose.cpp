@@ -128,6 +128,7 @@ class Loose {
     for (Step& step : deck_.steps) {
       std::erase_if(step.forces, [&](const Step::NodalForce& f) { return is_loose(f.node_index); });
       drop_from(step.supports);
+      drop_from(step.moved);
     }
     for (size_t p = 0; p < is_loose_.size(); ++p)
       if (is_loose_[p]) deck_.points[p].left_out = true;

@@ -55,6 +55,7 @@ void hang_on_neighbours(Model& model, const RawMass& raw, Mass mass, const Neigh
   const NodeIndex point = model.add_point(model.node_map.position(node) + mass.offset, raw.origin);
   patch.reference = point;
   mass.node_index = point;
+  model.hung[point] = node;
   mass.offset.setZero();
   model.deck.notes.push_back(fmt::format(
       "{}: CONM2 {}: nodes of solids have no rotations: its {} hangs on the {} nodes of the cells "

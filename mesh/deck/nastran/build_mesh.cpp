@@ -54,10 +54,8 @@ std::vector<int32_t> find_rows(Model& model) {
 // Faces of loads are looked up in the cells as they are afterwards.
 void repair(Model& model) {
   const std::string& deck = model.source.files().front();
-  const std::vector<std::string> done = repair_cells(model.deck.mesh, deck);
-  for (const std::string& text : done)
-    model.deck.renumbered.push_back(fmt::format("{}: {}", deck, text));
-  if (done.empty()) return;
+  model.deck.renumbered = repair_cells(model.deck.mesh, deck);
+  if (model.deck.renumbered.empty()) return;
   std::vector<int32_t> ids;
   for (const CellBlock& block : model.deck.mesh.cells)
     ids.insert(ids.end(), block.ids.begin(), block.ids.end());

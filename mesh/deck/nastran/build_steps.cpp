@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "mesh/deck/nastran/loads.hpp"
 #include "mesh/deck/nastran/model.hpp"
@@ -50,6 +51,7 @@ class Steps {
     step.name = fmt::format("load_{}", load);
     step.where = model_.source.where(loads_.origin_of(load));
     loads_.list(step, load, loads_.origin_of(load));
+    check_moved(step);
     model_.deck.steps.push_back(std::move(step));
   }
 
@@ -75,7 +77,36 @@ class Steps {
     if (choice.spc != 0 && !same_supports()) {
       step.supports = supports_of(model_, choice.spc, subcase.origin);
     }
+    check_moved(step);
     model_.deck.steps.push_back(std::move(step));
+  }
+
+  // Each displacement of SPCD must be one that a support holds, at no value of its own.
+  void check_moved(const Step& step) const {
+    if (step.moved.empty()) return;
+    std::map<NodeIndex, DofMask> held, given;
+    const std::vector<Support>* const all[] = {&model_.deck.supports, &step.supports};
+    for (const auto* supports : all)
+      for (const Support& support : *supports)
+        for (const NodeIndex index : support.node_indices) {
+          held[index] = static_cast<DofMask>(held[index] | support.dofs);
+          if (support.value != 0.0)
+            given[index] = static_cast<DofMask>(given[index] | support.dofs);
+        }
+    for (const Support& moved : step.moved)
+      for (const NodeIndex index : moved.node_indices) {
+        const int32_t grid = raw_.grids.ids[model_.node_map.row_of(index)];
+        if ((moved.dofs & ~held[index]) != 0)
+          throw InputError(fmt::format(
+              "{}: SPCD: grid {}: found a component that the supports of {} do not hold, expected "
+              "it in their SPC",
+              moved.where, grid, step.name));
+        if ((moved.dofs & given[index]) != 0)
+          throw InputError(fmt::format(
+              "{}: SPCD: grid {}: SPC gives it a displacement as well, expected one of them: leave "
+              "D of SPC blank",
+              moved.where, grid));
+      }
   }
 
   bool same_supports() const {

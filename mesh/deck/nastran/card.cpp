@@ -73,7 +73,16 @@ void Card::fail(size_t i, const std::string& message) const {
   source_->fail(lines_[line].origin, fmt::format("{}: {}", name_, message));
 }
 
+std::string_view Card::word(size_t i, const char* what) const {
+  if (text(i).find(' ') != std::string_view::npos) fail_expected(i, what, "one word");
+  return text(i);
+}
+
 void Card::fail_expected(size_t i, const char* what, const char* expected) const {
+  if (text(i).find(' ') != std::string_view::npos)
+    fail(i, fmt::format("{}: found {}, parts of two fields: align the fields of this line in "
+                        "columns of 8 (of 16 with *), or separate them by commas",
+                        what, shown(text(i))));
   if (blank(i)) fail(i, fmt::format("{}: found nothing, expected {}", what, expected));
   fail(i, fmt::format("{}: found {}, expected {}", what, shown(text(i)), expected));
 }

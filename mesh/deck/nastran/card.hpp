@@ -39,6 +39,8 @@ class Card {
   size_t size() const { return fields_.size(); }
   std::string_view text(size_t i) const;
   bool blank(size_t i) const { return text(i).empty(); }
+  /// Text without blanks inside.
+  std::string_view word(size_t i, const char* what) const;
   /// Blank from field i on.
   bool blank_from(size_t i) const;
 

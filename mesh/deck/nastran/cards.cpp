@@ -22,6 +22,8 @@ constexpr const char* kNonlinear = "of a nonlinear analysis";
 constexpr const char* kTemperature = "dependence of constants on temperature";
 constexpr const char* kOptimisation = "of an optimisation";
 constexpr const char* kOutput = "of output and plots";
+constexpr const char* kFluid = "of a fluid";
+constexpr const char* kContactPart = "of contact, whose pairs are refused";
 constexpr const char* kUnused = "properties of cells that are not read";
 constexpr const char* kSuper = "of the reduction in Nastran";
 
@@ -42,17 +44,14 @@ constexpr const char* kOthers =
     "joins parts";
 constexpr const char* kGenel =
     "ignore = [\"{0}\"] drops its stiffness: a [[matrix]] of the fe.toml replaces it";
-constexpr const char* kSome =
-    "accelerations of some grids are no loads here; ignore = [\"{0}\"] drops them: GRAV acts on "
-    "the "
-    "entire part";
 constexpr const char* kSpline =
     "ignore = [\"{0}\"] drops it: [[equation]] of the fe.toml replaces it";
 constexpr const char* kPlate =
     "ignore = [\"{0}\"] drops it: a [[coupling]] of type rigid in the fe.toml replaces it";
-constexpr const char* kSpcd =
-    "write the displacement as D of SPC; or ignore = [\"{0}\"], and a [[load]] of kind "
-    "displacement in the fe.toml";
+constexpr const char* kContactSet =
+    "contact that opens is not linear; ignore = [\"{0}\"] leaves both sides free of each other: "
+    "where the deck means glue, a BGSET of the same regions joins them, else a [[tie]] of the "
+    "fe.toml";
 
 constexpr Role reads(std::string_view name, void (*read)(const Card&, RawDeck&), size_t most,
                      const char* meaning) {
@@ -67,21 +66,38 @@ constexpr Role refuses(std::string_view name, const char* why, size_t first_grid
 
 // Sorted by name.
 constexpr std::array kRoles = {
-    reads("ACCEL", read_accel, 0, "acceleration, the same everywhere"),
-    refuses("ACCEL1", kSome, 0, 0),
+    reads("ACCEL", read_accel, 0, "acceleration, the same everywhere or varying along an axis"),
+    reads("ACCEL1", read_accel1, 0, "acceleration of some grids"),
+    passes("ACMODL", kFluid),
     reads("ASET", read_aset, 8, kRetained),
     reads("ASET1", read_aset1, 0, kRetained),
     passes("BAROR", kUnused),
     refuses("BCBODY", kContact, 0, 0),
+    refuses("BCBODY1", kContact, 0, 0),
+    passes("BCGRID", kContactPart),
+    refuses("BCONECT", kContact, 0, 0),
     refuses("BCONP", kContact, 0, 0),
+    passes("BCONPRG", kContactPart),
+    passes("BCONPRP", kContactPart),
+    passes("BCPARA", kContactPart),
+    passes("BCPROP", kContactPart),
+    passes("BCRPARA", kContactPart),
+    refuses("BCTABL1", kContact, 0, 0),
     refuses("BCTABLE", kContact, 0, 0),
-    refuses("BCTSET", kContact, 0, 0),
+    passes("BCTADD", kContactPart),
+    passes("BCTPARA", kContactPart),
+    passes("BCTPARM", kContactPart),
+    refuses("BCTSET", kContactSet, 0, 0),
     passes("BEAMOR", kUnused),
+    passes("BFRIC", kContactPart),
     reads("BGSET", read_bgset, 0, "ties"),
+    passes("BLSEG", kContactPart),
     passes("BOUTPUT", kOutput),
     reads("BSET", read_aset, 8, kRetained),
     reads("BSET1", read_aset1, 0, kRetained),
+    passes("BSURF", kContactPart),
     reads("BSURFS", read_bsurfs, 0, "surface of a tie"),
+    passes("BWIDTH", kContactPart),
     refuses("CBAR", kBars, 2, 2),
     refuses("CBEAM", kBars, 2, 2),
     refuses("CBEAM3", kBars, 2, 3),
@@ -97,7 +113,7 @@ constexpr std::array kRoles = {
     reads("CELAS3", read_celas3, 8, "spring"),
     reads("CELAS4", read_celas4, 8, "spring"),
     refuses("CFAST", kWelds, 0, 0),
-    refuses("CGAP", kContact, 2, 2),
+    reads("CGAP", read_cgap, 8, "springs of the state in which the gap begins"),
     reads("CHEXA", read_cell, 24, kCell),
     reads("CMASS1", read_celas1, 8, "mass between DoFs"),
     reads("CMASS2", read_celas2, 8, "mass between DoFs"),
@@ -169,6 +185,7 @@ constexpr std::array kRoles = {
     reads("EIGR", read_eigr, 16, "number of modes of a step"),
     reads("EIGRL", read_eigrl, 0, "number of modes of a step"),
     passes("EXTRN", kSuper),
+    passes("FLSPOUT", kFluid),
     reads("FORCE", read_force, 8, "force"),
     reads("FORCE1", read_force1, 8, "force"),
     reads("FORCE2", read_force2, 8, "force"),
@@ -185,7 +202,7 @@ constexpr std::array kRoles = {
     reads("LOAD", read_load, 0, "sum of load sets"),
     passes("LSEQ", kDynamic),
     reads("MAT1", read_mat1, 16, "isotropic material; damping and stress limits are not read"),
-    reads("MAT10", read_other_material, 0, "named where a solid has it"),
+    reads("MAT10", read_other_material, 0, "of a fluid, whose cells are refused"),
     reads("MAT2", read_other_material, 0, "named where a solid has it"),
     reads("MAT3", read_other_material, 0, "named where a solid has it"),
     passes("MAT4", kUnused),
@@ -216,7 +233,9 @@ constexpr std::array kRoles = {
     passes("OMIT1", kSuper),
     passes("PANEL", kOutput),
     Role{"PARAM", Fate::kRead, nullptr, 8, 0, 0,
-         "WTMASS, COUPMASS, CK2, CM2, INREL; others are passed over"},
+         "WTMASS, COUPMASS, CK2, CM2, INREL; ALPHA1 and ALPHA2 are offered as damping; others are "
+         "passed "
+         "over"},
     passes("PBAR", kUnused),
     passes("PBARL", kUnused),
     passes("PBCOMP", kUnused),
@@ -234,7 +253,7 @@ constexpr std::array kRoles = {
     reads("PELAS", read_pelas, 8, "stiffness of springs"),
     passes("PELAST", kDynamic),
     passes("PFAST", kUnused),
-    passes("PGAP", kUnused),
+    reads("PGAP", read_pgap, 0, "stiffness of gaps"),
     reads("PLOAD", read_pload, 8, "pressure on a face of solids"),
     refuses("PLOAD1", kBarLoads, 0, 0),
     reads("PLOAD2", read_pload2, 0, "pressure on two-dimensional cells on solids"),
@@ -277,7 +296,7 @@ constexpr std::array kRoles = {
     reads("SPC", read_spc, 8, "supports, prescribed displacements"),
     reads("SPC1", read_spc1, 0, "supports"),
     reads("SPCADD", read_spcadd, 0, "sum of sets of supports"),
-    refuses("SPCD", kSpcd, 0, 0),
+    reads("SPCD", read_spcd, 8, "prescribed displacements of a load set"),
     reads("SPOINT", read_spoint, 0, "scalar point"),
     passes("SUPORT", kSuper),
     passes("SUPORT1", kSuper),

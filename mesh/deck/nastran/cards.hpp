@@ -28,6 +28,7 @@ std::vector<Listed> listed_cards();
 
 // Each reads one card. InputError with file and line for errors and unsupported fields.
 void read_accel(const Card& card, RawDeck& raw);
+void read_accel1(const Card& card, RawDeck& raw);
 void read_aset(const Card& card, RawDeck& raw);   // ASET, BSET, CSET
 void read_aset1(const Card& card, RawDeck& raw);  // ASET1, BSET1, CSET1
 void read_bgset(const Card& card, RawDeck& raw);
@@ -38,6 +39,7 @@ void read_celas2(const Card& card, RawDeck& raw);  // CELAS2, CMASS2
 void read_celas3(const Card& card, RawDeck& raw);  // CELAS3, CMASS3
 void read_celas4(const Card& card, RawDeck& raw);  // CELAS4, CMASS4
 void read_cell(const Card& card, RawDeck& raw);    // CTETRA, CPYRAM, CPENTA, CHEXA
+void read_cgap(const Card& card, RawDeck& raw);
 void read_conm1(const Card& card, RawDeck& raw);
 void read_conm2(const Card& card, RawDeck& raw);
 void read_cord1(const Card& card, RawDeck& raw);  // CORD1R, CORD1C, CORD1S
@@ -61,6 +63,7 @@ void read_other_property(const Card& card,
                          RawDeck& raw);  // properties that solids cannot have here
 void read_pbush(const Card& card, RawDeck& raw);
 void read_pelas(const Card& card, RawDeck& raw);
+void read_pgap(const Card& card, RawDeck& raw);
 void read_pload(const Card& card, RawDeck& raw);
 void read_pload2(const Card& card, RawDeck& raw);
 void read_pload4(const Card& card, RawDeck& raw);
@@ -79,6 +82,7 @@ void read_skin(const Card& card, RawDeck& raw);  // CQUAD4, CTRIA3 and the like
 void read_spc(const Card& card, RawDeck& raw);
 void read_spc1(const Card& card, RawDeck& raw);
 void read_spcadd(const Card& card, RawDeck& raw);
+void read_spcd(const Card& card, RawDeck& raw);
 void read_spoint(const Card& card, RawDeck& raw);
 void read_temp(const Card& card, RawDeck& raw);
 void read_tempd(const Card& card, RawDeck& raw);

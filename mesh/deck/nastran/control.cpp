@@ -19,26 +19,27 @@ constexpr std::array<std::string_view, 23> kHarmlessExecutive = {
     "ECHOOFF",   "ECHOON", "GEOMCHECK",    "ID",   "INIT",    "LABEL",  "MODEL_CHECK",  "NASTRAN",
     "RFINCLUDE", "SOL",    "SPARSESOLVER", "TIME", "VERSION", "EXPAND", "DBSETDEL"};
 
-constexpr std::array<std::string_view, 113> kHarmlessCase = {
-    "ACCELERATION", "ACFPMRESULT",   "ANALYSIS",    "AUTOSPC",       "AUXMODEL",     "B2GG",
-    "B2PP",         "BCRESULTS",     "BGRESULTS",   "BOUTPUT",       "BUCKLING",     "CMETHOD",
-    "DESGLB",       "DESOBJ",        "DESSUB",      "DESVAR",        "DISPLACEMENT", "DLOAD",
-    "DRSPAN",       "ECHO",          "ECHOOFF",     "ECHOON",        "EDE",          "EKE",
-    "ELFORCE",      "ELSDCON",       "ELSTRAIN",    "ELSTRESS",      "ELSUM",        "ENDTIME",
-    "ESE",          "EXTSEOUT",      "FLUX",        "FORCE",         "FREQUENCY",    "GPFORCE",
-    "GPKE",         "GPSDCON",       "GPSTRAIN",    "GPSTRESS",      "GROUNDCHECK",  "HOUTPUT",
-    "IC",           "K42GG",         "LABEL",       "LINE",          "LOADSET",      "MAXLINES",
-    "MAXMIN",       "MEFFMASS",      "MFLUID",      "MODALKE",       "MODALSE",      "MODESELECT",
-    "MPCFORCES",    "NLPARM",        "NLSTEP",      "NLSTRESS",      "NONLINEAR",    "NOUTPUT",
-    "OFREQUENCY",   "OLOAD",         "OMODES",      "OTIME",         "OUTPUT",       "PAGE",
-    "PLOTID",       "PRESSURE",      "RANDOM",      "REPCASE",       "RESVEC",       "RGYRO",
-    "RSMETHOD",     "SACCELERATION", "SDAMPING",    "SDISPLACEMENT", "SEALL",        "SEDR",
-    "SEDV",         "SEEXCLUDE",     "SEFINAL",     "SEKREDUCE",     "SELGENERATE",  "SEMGENERATE",
-    "SET",          "SHELLTHK",      "SKIP",        "SPCFORCES",     "STATSUB",      "STRAIN",
-    "STRESS",       "STRESSES",      "STRFIELD",    "SUBCOM",        "SUBSEQ",       "SUBTITLE",
-    "SUPER",        "SUPORT1",       "SURFACE",     "SVECTOR",       "SVELOCITY",    "THERMAL",
-    "TITLE",        "TSTEP",         "TSTEPNL",     "VARIABLE",      "VECTOR",       "VELOCITY",
-    "VOLUME",       "VUGRID",        "WEIGHTCHECK", "XTITLE",        "YTITLE"};
+constexpr std::array<std::string_view, 116> kHarmlessCase = {
+    "ACCELERATION",  "ACFPMRESULT", "ANALYSIS",    "AUTOSPC",    "AUXMODEL",      "B2GG",
+    "B2PP",          "BCONTACT",    "BCRESULTS",   "BCSET",      "BGRESULTS",     "BOUTPUT",
+    "BUCKLING",      "CMETHOD",     "DESGLB",      "DESOBJ",     "DESSUB",        "DESVAR",
+    "DISPLACEMENT",  "DLOAD",       "DRSPAN",      "ECHO",       "ECHOOFF",       "ECHOON",
+    "EDE",           "EKE",         "ELFORCE",     "ELSDCON",    "ELSTRAIN",      "ELSTRESS",
+    "ELSUM",         "ENDTIME",     "ESE",         "EXTSEOUT",   "FLSTCNT",       "FLUX",
+    "FORCE",         "FREQUENCY",   "GPFORCE",     "GPKE",       "GPSDCON",       "GPSTRAIN",
+    "GPSTRESS",      "GROUNDCHECK", "HOUTPUT",     "IC",         "K42GG",         "LABEL",
+    "LINE",          "LOADSET",     "MAXLINES",    "MAXMIN",     "MEFFMASS",      "MFLUID",
+    "MODALKE",       "MODALSE",     "MODESELECT",  "MPCFORCES",  "NLPARM",        "NLSTEP",
+    "NLSTRESS",      "NONLINEAR",   "NOUTPUT",     "OFREQUENCY", "OLOAD",         "OMODES",
+    "OTIME",         "OUTPUT",      "PAGE",        "PLOTID",     "PRESSURE",      "RANDOM",
+    "REPCASE",       "RESVEC",      "RGYRO",       "RSMETHOD",   "SACCELERATION", "SDAMPING",
+    "SDISPLACEMENT", "SEALL",       "SEDR",        "SEDV",       "SEEXCLUDE",     "SEFINAL",
+    "SEKREDUCE",     "SELGENERATE", "SEMGENERATE", "SET",        "SHELLTHK",      "SKIP",
+    "SPCFORCES",     "STATSUB",     "STRAIN",      "STRESS",     "STRESSES",      "STRFIELD",
+    "SUBCOM",        "SUBSEQ",      "SUBTITLE",    "SUPER",      "SUPORT1",       "SURFACE",
+    "SVECTOR",       "SVELOCITY",   "THERMAL",     "TITLE",      "TSTEP",         "TSTEPNL",
+    "VARIABLE",      "VECTOR",      "VELOCITY",    "VOLUME",     "VUGRID",        "WEIGHTCHECK",
+    "XTITLE",        "YTITLE"};
 
 // OptiStruct's lines before and within the case control.
 constexpr std::array<std::string_view, 23> kOptiStruct = {
@@ -353,6 +354,10 @@ bool read_parameter(Control& control, std::string_view name, std::string_view va
     control.direct_stiffness_factor = number();
   } else if (name == "CM2") {
     control.direct_mass_factor = number();
+  } else if (name == "ALPHA1") {
+    control.mass_damping = number();
+  } else if (name == "ALPHA2") {
+    control.stiffness_damping = number();
   } else if (name == "INREL") {
     control.inertia_relief = number() != 0.0;
   } else {

@@ -39,6 +39,7 @@ struct Control {
   double direct_stiffness_factor = 1.0, direct_mass_factor = 1.0;  // PARAM, CK2 and CM2
   double mass_factor = 1.0;                                        // PARAM, WTMASS
   bool coupled_mass = false;                                       // PARAM, COUPMASS
+  double mass_damping = 0.0, stiffness_damping = 0.0;              // PARAM, ALPHA1 and ALPHA2
   bool inertia_relief = false;                                     // PARAM, INREL
   std::vector<Subcase> subcases;                                   // one at least when has_cases
 };

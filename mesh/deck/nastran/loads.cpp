@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh/deck/nastran/supports.hpp"
+
 namespace clatter::mesh::deck::nastran {
 namespace {
 
@@ -98,6 +100,9 @@ void Loads::list_set(Step& step, int32_t id, double factor, Origin origin) {
   for (const RawForce& force : at->second.forces) list_force(step, force, factor);
   for (const RawGravity& raw : at->second.gravity) list_gravity(step, raw, factor);
   for (const RawRotation& raw : at->second.rotations) list_rotation(step, raw, factor);
+  for (const RawAcceleration& raw : at->second.accelerations)
+    add_accelerations(model_, step, raw, factor);
+  list_moved(step, id, at->second, factor);
   if (!step.acceleration.allFinite()) {
     model_.source.fail(at->second.origin, "GRAV: its numbers are too large");
   }
@@ -111,6 +116,16 @@ void Loads::list_set(Step& step, int32_t id, double factor, Origin origin) {
     model_.spend(128, origin);
     step.pressures.push_back({name, factor * value});
   }
+}
+
+// SPCD moves what the supports hold.
+void Loads::list_moved(Step& step, int32_t id, const LoadSet& set, double factor) {
+  Supports moved(model_, fmt::format("spcd_{}", id));
+  for (RawHold hold : set.moved) {
+    hold.value *= factor;
+    moved.read(hold);
+  }
+  for (Support& support : moved.list()) step.moved.push_back(std::move(support));
 }
 
 void Loads::list_gravity(Step& step, const RawGravity& raw, double factor) {

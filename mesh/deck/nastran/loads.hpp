@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// FORCE, MOMENT, PLOAD, PLOAD2, PLOAD4, GRAV, RFORCE, LOAD, TEMP, TEMPD: the loads of sets.
+// FORCE, MOMENT, PLOAD, PLOAD2, PLOAD4, GRAV, ACCEL, ACCEL1, RFORCE, SPCD, LOAD, TEMP, TEMPD: the
+// loads of sets.
 #include <cstdint>
 #include <map>
 #include <set>
@@ -29,6 +30,7 @@ class Loads {
   void list_force(Step& step, const RawForce& raw, double factor);
   void name_surfaces(int32_t id, const std::map<double, SurfaceBuilder>& surfaces);
   Eigen::Vector3d vector_of(const RawForce& raw, NodeIndex node_index) const;
+  void list_moved(Step& step, int32_t id, const LoadSet& set, double factor);
   void list_gravity(Step& step, const RawGravity& raw, double factor);
   void list_rotation(Step& step, const RawRotation& raw, double factor);
   RowMatrix temperatures(int32_t id, const TemperatureSet& set);

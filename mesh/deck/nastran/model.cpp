@@ -176,6 +176,13 @@ void choose_mass(Model& model) {
   if (analysis && !model.raw.control.coupled_mass) model.deck.mass = MassForm::kLumped;
 }
 
+void take_damping(Model& model) {
+  const Control& control = model.raw.control;
+  if (control.mass_damping != 0.0 || control.stiffness_damping != 0.0)
+    model.deck.damping.push_back({model.source.files().front(), "PARAM, ALPHA1 and ALPHA2",
+                                  control.mass_damping, control.stiffness_damping});
+}
+
 void note_solution(Model& model) {
   const Control& control = model.raw.control;
   const std::string& deck = model.source.files().front();

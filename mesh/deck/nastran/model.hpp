@@ -54,6 +54,7 @@ class Model {
   IdIndex cells;                 // numbered across all blocks of the mesh
   std::optional<IdIndex> skins;  // row of a two-dimensional cell in raw.skins; made when needed
   int64_t lost_loads = 0;        // forces on grids of ignored cells
+  std::map<NodeIndex, NodeIndex> hung;  // point of a mass beside a node of solids -> that node
 
  private:
   size_t row_of(int32_t grid, Origin origin) const;
@@ -63,6 +64,8 @@ class Model {
   std::optional<BoundaryFaces> boundary_;
 };
 
+/// Leaves out the cells of fluids if the user ignores them; else refuses them.
+void leave_out_fluids(Model& model, Ignore& ignore);
 /// Cells, nodes, regions. Grids without cells get no node index yet.
 void build_mesh(Model& model);
 /// Adds the mid-side nodes that cards omit from a quadratic cell to the grids and to `mesh_node`
@@ -83,7 +86,7 @@ void build_masses(Model& model);
 void build_equations(Model& model);
 /// CELAS, CMASS with their PELAS, PMASS.
 void build_springs(Model& model);
-/// CBUSH with their PBUSH -> springs.
+/// CBUSH with their PBUSH, CGAP with their PGAP -> springs.
 void build_bushes(Model& model);
 /// CONM1 and the DMIG of K2GG and M2GG.
 void build_matrices(Model& model);
@@ -106,6 +109,9 @@ void build_surfaces(Model& model);
 void build_initial_temperature(Model& model);
 /// Subcases with their loads.
 void build_steps(Model& model);
+/// Adds the accelerations of a card, times `factor`, to those of the nodes of a step, and the
+/// forces on masses and mass matrices.
+void add_accelerations(Model& model, Step& step, const RawAcceleration& raw, double factor);
 /// A face that a load acts on.
 struct LoadedFace {
   FaceType type = FaceType::kTri3;
@@ -144,6 +150,8 @@ void count_unused(Model& model);
 void choose_mass(Model& model);
 /// Damping of springs is passed over.
 void pass_damping(Model& model);
+/// PARAM, ALPHA1 and ALPHA2, for the recipe to offer.
+void take_damping(Model& model);
 /// A remark: what the solution changes.
 void note_solution(Model& model);
 

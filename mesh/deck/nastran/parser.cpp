@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <utility>
@@ -99,6 +100,8 @@ class Parser : public CardSink {
                                "[\"{}\"] reads the first, ignore = [\"{}\"] the second",
                                chosen->name, other->name, chosen->name));
     RawDeck raw = std::move(chosen->raw);
+    for (Section& one : sections_)
+      if (&one != &*chosen) drop_choices(raw, one.raw, one.name);
     for (const Section& one : sections_)
       if (&one != &*chosen && one.cards > 0)
         raw.notes.push_back(fmt::format(
@@ -118,6 +121,42 @@ class Parser : public CardSink {
     int64_t cards;
     bool left_out;  // by the user
   };
+  /// Case control is for all sections: sets that only `other` has select nothing of this one, but
+  /// its requests of modes do.
+  void drop_choices(RawDeck& raw, RawDeck& other, const std::string& name) const {
+    raw.eigen_counts.merge(other.eigen_counts);
+    struct Kind {
+      const char* command;
+      int32_t Choice::*set;
+      bool (*has)(const RawDeck&, int32_t);
+    };
+    constexpr std::array<Kind, 4> kKinds = {
+        {{"SPC", &Choice::spc,
+          [](const RawDeck& one, int32_t set) {
+            return one.spc.contains(set) || one.spc_sums.contains(set);
+          }},
+         {"MPC", &Choice::mpc,
+          [](const RawDeck& one, int32_t set) {
+            return one.mpc.contains(set) || one.mpc_sums.contains(set);
+          }},
+         {"LOAD", &Choice::load,
+          [](const RawDeck& one, int32_t set) {
+            return one.loads.contains(set) || one.load_sums.contains(set);
+          }},
+         {"TEMPERATURE", &Choice::temperature,
+          [](const RawDeck& one, int32_t set) { return one.temperatures.contains(set); }}}};
+    std::set<std::pair<std::string, int32_t>> said;
+    for (Subcase& subcase : raw.control.subcases)
+      for (const Kind& kind : kKinds) {
+        int32_t& set = subcase.choice.*kind.set;
+        if (set == 0 || kind.has(raw, set) || !kind.has(other, set)) continue;
+        if (said.emplace(kind.command, set).second)
+          raw.notes.push_back(fmt::format("{}: {} = {} is a set of {}: left out",
+                                          source_.files().front(), kind.command, set, name));
+        set = 0;
+      }
+  }
+
   struct Refused {
     Origin origin;
     const Content* content;

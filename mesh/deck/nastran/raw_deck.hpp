@@ -85,6 +85,7 @@ struct RawSolid {  // PSOLID
   int32_t material = 0;
   int32_t system = 0;  // -1: element axes
   std::string integration, scheme;
+  bool fluid = false;  // FCTN
 };
 
 struct RawMaterial {
@@ -157,7 +158,7 @@ struct RawSpring {  // CELAS1 to CELAS4, CMASS1 to CMASS4
   std::vector<End> ends;  // one: against the ground
 };
 
-struct RawBush {  // CBUSH
+struct RawBush {  // CBUSH, CGAP
   Origin origin = 0;
   int32_t id = 0, property = 0;
   std::array<int32_t, 2> grids{};  // the second 0: the ground
@@ -167,11 +168,18 @@ struct RawBush {  // CBUSH
   double share = 0.5;          // S: position of the springs from GA to GB
   int32_t offset_system = -1;  // OCID; -1: S counts
   std::array<double, 3> offset{};
+  bool is_gap = false;
 };
 
 struct RawBushProperty {  // PBUSH
   Origin origin = 0;
   std::array<double, 6> stiffness{};
+};
+
+struct RawGapProperty {  // PGAP
+  Origin origin = 0;
+  bool is_open = false;
+  double along = 0.0, across = 0.0;  // stiffness of the initial state
 };
 
 /// DMIG of one name.
@@ -206,7 +214,7 @@ struct RawFaces {  // BSURFS
   std::vector<Face> faces;
 };
 
-/// SPC, SPC1, ASET, ASET1, BSET, BSET1, CSET, CSET1.
+/// SPC, SPC1, SPCD, ASET, ASET1, BSET, BSET1, CSET, CSET1.
 struct RawHold {
   int32_t set = 0;
   Origin origin = 0;
@@ -256,6 +264,16 @@ struct RawGravity {
   std::array<double, 3> vector{};
 };
 
+/// ACCEL1: of some grids; ACCEL that varies: of all.
+struct RawAcceleration {
+  Origin origin = 0;
+  int32_t system = 0;
+  std::array<double, 3> vector{};
+  IdList grids;
+  int along = -1;  // axis of the system along which the factors are given; -1: ACCEL1
+  std::vector<std::pair<double, double>> factors;  // position, factor; ascending
+};
+
 struct RawRotation {  // RFORCE
   Origin origin = 0;
   int32_t grid = 0, system = 0;  // 0: origin, basic
@@ -276,7 +294,9 @@ struct LoadSet {
   std::vector<RawForce> forces;
   std::vector<RawPressure> pressures;
   std::vector<RawGravity> gravity;
+  std::vector<RawAcceleration> accelerations;
   std::vector<RawRotation> rotations;
+  std::vector<RawHold> moved;  // SPCD
 };
 
 /// LOAD: sum of sets, each with its factor.
@@ -331,6 +351,7 @@ struct RawDeck {
   std::map<int32_t, double> scalar_masses;     // PMASS
   std::vector<RawBush> bushes;
   std::map<int32_t, RawBushProperty> bush_properties;
+  std::map<int32_t, RawGapProperty> gap_properties;
   std::map<std::string, RawDirect> direct;                           // DMIG by name
   std::set<int32_t> scalar_points;                                   // SPOINT
   std::map<int32_t, RawGlue> glue;                                   // BGSET by set

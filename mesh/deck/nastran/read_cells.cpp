@@ -112,7 +112,7 @@ void read_grid(const Card& card, RawDeck& raw) {
   grids.at.push_back(at);
   const auto system = [&](size_t i, const char* what) {
     if (card.blank(i)) return kBlank;
-    if (card.text(i) == "-1") card.fail(i, "CD -1 (fluid) is not supported");
+    if (card.text(i) == "-1" && i == 5) return kZero;  // a grid of a fluid
     const int32_t number = system_number(card, i, what);
     return number == 0 ? kZero : number;
   };

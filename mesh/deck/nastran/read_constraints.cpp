@@ -54,6 +54,20 @@ void refuse_expansion(const Card& card, size_t i) {
   }
 }
 
+// SID, then twice: G, C, D.
+void read_moved(const Card& card, std::vector<RawHold>& holds) {
+  card.at_most(7);
+  for (const size_t i : {size_t{1}, size_t{4}}) {
+    if (i > 1 && card.blank_from(i)) break;
+    const int32_t grid = card.id(i, "G");
+    holds.push_back({card.id(0, "SID"),
+                     card.origin(),
+                     components_or(card, i + 1, "C", 0),
+                     card.number_or(i + 2, "D", 0.0),
+                     {{grid, grid}}});
+  }
+}
+
 }  // namespace
 
 void read_rbe2(const Card& card, RawDeck& raw) {
@@ -225,18 +239,12 @@ void read_mpc(const Card& card, RawDeck& raw) {
 void read_mpcadd(const Card& card, RawDeck& raw) { add_sum(card, raw.mpc_sums); }
 void read_spcadd(const Card& card, RawDeck& raw) { add_sum(card, raw.spc_sums); }
 
-void read_spc(const Card& card, RawDeck& raw) {
-  const int32_t set = card.id(0, "SID");
-  card.at_most(7);
-  for (const size_t i : {size_t{1}, size_t{4}}) {
-    if (i > 1 && card.blank_from(i)) break;
-    const int32_t grid = card.id(i, "G");
-    raw.spc[set].push_back({set,
-                            card.origin(),
-                            components_or(card, i + 1, "C", 0),
-                            card.number_or(i + 2, "D", 0.0),
-                            {{grid, grid}}});
-  }
+void read_spc(const Card& card, RawDeck& raw) { read_moved(card, raw.spc[card.id(0, "SID")]); }
+
+void read_spcd(const Card& card, RawDeck& raw) {
+  const auto [at, fresh] = raw.loads.try_emplace(card.id(0, "SID"));
+  if (fresh) at->second.origin = card.origin();
+  read_moved(card, at->second.moved);
 }
 
 void read_spc1(const Card& card, RawDeck& raw) {

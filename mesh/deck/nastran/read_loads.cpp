@@ -2,7 +2,9 @@
 // Cards of loads, temperatures and eigenvalue requests.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "mesh/deck/nastran/cards.hpp"
 
@@ -28,6 +30,28 @@ int32_t system_number(const Card& card, size_t i) {
   return number;
 }
 
+// SID CID A N1 N2 N3.
+template <class Raw>
+Raw scaled_acceleration(const Card& card) {
+  Raw raw;
+  raw.origin = card.origin();
+  raw.system = system_number(card, 1);
+  raw.vector = scaled_vector(card, 2, 3);
+  return raw;
+}
+
+// With the grids that define its direction.
+void read_force_along(const Card& card, size_t grids, RawDeck& raw) {
+  RawForce force;
+  force.origin = card.origin();
+  force.grid = card.id(1, "G");
+  force.magnitude = card.number(2, "F");
+  for (size_t k = 0; k < grids; ++k) force.along[k] = card.id(3 + k, "G");
+  force.moment = card.name().starts_with("MOMENT");
+  card.at_most(3 + grids);
+  load_set(card, raw).forces.push_back(force);
+}
+
 TemperatureSet& temperature_set(const Card& card, size_t i, RawDeck& raw) {
   const auto [at, fresh] = raw.temperatures.try_emplace(card.id(i, "SID"));
   if (fresh) at->second.origin = card.origin();
@@ -48,28 +72,10 @@ void read_force(const Card& card, RawDeck& raw) {
 }
 
 // SID G F G1 G2: along G1 to G2.
-void read_force1(const Card& card, RawDeck& raw) {
-  RawForce force;
-  force.origin = card.origin();
-  force.grid = card.id(1, "G");
-  force.magnitude = card.number(2, "F");
-  force.along = {card.id(3, "G1"), card.id(4, "G2"), 0, 0};
-  force.moment = card.name().starts_with("MOMENT");
-  card.at_most(5);
-  load_set(card, raw).forces.push_back(force);
-}
+void read_force1(const Card& card, RawDeck& raw) { read_force_along(card, 2, raw); }
 
 // SID G F G1 G2 G3 G4: along (G1 to G2) x (G3 to G4).
-void read_force2(const Card& card, RawDeck& raw) {
-  RawForce force;
-  force.origin = card.origin();
-  force.grid = card.id(1, "G");
-  force.magnitude = card.number(2, "F");
-  force.along = {card.id(3, "G1"), card.id(4, "G2"), card.id(5, "G3"), card.id(6, "G4")};
-  force.moment = card.name().starts_with("MOMENT");
-  card.at_most(7);
-  load_set(card, raw).forces.push_back(force);
-}
+void read_force2(const Card& card, RawDeck& raw) { read_force_along(card, 4, raw); }
 
 // SID P G1 G2 G3 G4: along the right-hand normal of G1 G2 G3.
 void read_pload(const Card& card, RawDeck& raw) {
@@ -120,30 +126,45 @@ void read_pload4(const Card& card, RawDeck& raw) {
   set.pressures.push_back(pressure);
 }
 
-// The same acceleration everywhere; one that varies is refused.
+// SID CID N1 N2 N3 DIR, then LOC VAL LOC VAL ...: factors at positions along DIR.
 void read_accel(const Card& card, RawDeck& raw) {
-  RawGravity gravity;
-  gravity.origin = card.origin();
-  gravity.system = system_number(card, 1);
-  const double value = card.number(9, "VAL1");
+  RawAcceleration accel;
+  accel.origin = card.origin();
+  accel.system = system_number(card, 1);
+  for (size_t k = 0; k < 3; ++k) accel.vector[k] = card.number_or(2 + k, "N", 0.0);
   for (size_t i = 8; i < card.size(); i += 2) {
     if (card.blank(i) && card.blank(i + 1)) continue;
-    card.number(i, "LOC");
-    if (card.number(i + 1, "VAL") != value)
-      card.fail(i + 1,
-                "accelerations that vary over the part are not supported, expected one: GRAV");
+    accel.factors.emplace_back(card.number(i, "LOC"), card.number(i + 1, "VAL"));
   }
-  for (size_t k = 0; k < 3; ++k) gravity.vector[k] = value * card.number_or(2 + k, "N", 0.0);
-  load_set(card, raw).gravity.push_back(gravity);
+  std::sort(accel.factors.begin(), accel.factors.end());
+  const auto same = [&](const auto& a, const auto& b) { return a.second == b.second; };
+  if (std::adjacent_find(accel.factors.begin(), accel.factors.end(), std::not_fn(same)) ==
+      accel.factors.end()) {
+    for (double& part : accel.vector) part *= accel.factors.empty() ? 1.0 : accel.factors[0].second;
+    load_set(card, raw).gravity.push_back({accel.origin, accel.system, accel.vector});
+    return;
+  }
+  const auto at = [](const auto& a, const auto& b) { return a.first == b.first; };
+  if (std::adjacent_find(accel.factors.begin(), accel.factors.end(), at) != accel.factors.end())
+    card.fail(8, "found two factors at one LOC, expected one");
+  constexpr std::string_view kAxes = "XYZ";
+  const size_t axis = card.text(5).size() == 1 ? kAxes.find(card.text(5)) : kAxes.npos;
+  if (axis == kAxes.npos) card.fail_expected(5, "DIR", "X, Y or Z");
+  accel.along = static_cast<int>(axis);
+  load_set(card, raw).accelerations.push_back(std::move(accel));
+}
+
+// SID CID A N1 N2 N3, then grids.
+void read_accel1(const Card& card, RawDeck& raw) {
+  auto accel = scaled_acceleration<RawAcceleration>(card);
+  accel.grids = card.ids(6, "GID");
+  if (accel.grids.empty()) card.fail_expected(8, "GID", "the grids that it acts on");
+  load_set(card, raw).accelerations.push_back(std::move(accel));
 }
 
 void read_grav(const Card& card, RawDeck& raw) {
-  RawGravity gravity;
-  gravity.origin = card.origin();
-  gravity.system = system_number(card, 1);
-  gravity.vector = scaled_vector(card, 2, 3);
   card.at_most(7);
-  load_set(card, raw).gravity.push_back(gravity);
+  load_set(card, raw).gravity.push_back(scaled_acceleration<RawGravity>(card));
 }
 
 void read_rforce(const Card& card, RawDeck& raw) {

@@ -28,11 +28,12 @@ void read_psolid(const Card& card, RawDeck& raw) {
   solid.material = card.id(1, "MID");
   solid.system = card.integer_or(2, "CORDM", 0);
   if (solid.system < -1) card.fail_expected(2, "CORDM", "a coordinate system, 0 or -1");
-  solid.integration = card.text(3);
-  solid.scheme = card.text(5);
-  if (!card.blank(6) && card.text(6) != "SMECH") {
-    card.fail(6, fmt::format("FCTN: found {}, expected SMECH: no fluids", shown(card.text(6))));
-  }
+  solid.integration = card.word(3, "IN");
+  card.word(4, "STRESS");
+  solid.scheme = card.word(5, "ISOP");
+  solid.fluid = card.text(6) == "PFLUID" || card.text(6) == "FFLUID";
+  if (!solid.fluid && !card.blank(6) && card.text(6) != "SMECH")
+    card.fail_expected(6, "FCTN", "SMECH, PFLUID or FFLUID");
   if (!raw.solids.emplace(id, solid).second) {
     card.fail(0, fmt::format("found a second property {}", id));
   }

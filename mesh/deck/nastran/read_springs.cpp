@@ -49,6 +49,22 @@ RawSpring points_of(const Card& card) {
   return spring;
 }
 
+// EID PID GA GB, the orientation X1 X2 X3 or GO, CID.
+RawBush without_offset(const Card& card) {
+  RawBush bush;
+  bush.origin = card.origin();
+  bush.id = card.id(0, "EID");
+  bush.property = card.id_or(1, "PID", bush.id);
+  bush.grids = {card.id(2, "GA"), card.id_or(3, "GB", 0)};
+  if (card.is_integer(4) && card.blank(5) && card.blank(6)) {
+    bush.orientation_grid = card.id(4, "GO");
+  } else {
+    for (size_t k = 0; k < 3; ++k) bush.orientation[k] = card.number_or(4 + k, "X", 0.0);
+  }
+  bush.system = card.integer_or(7, "CID", -1);
+  return bush;
+}
+
 double value_of(const Card& card, size_t i, bool mass) {
   const double value = card.number(i, mass ? "M" : "K");
   if (!(value > 0.0)) {
@@ -122,22 +138,43 @@ void read_spoint(const Card& card, RawDeck& raw) {
 }
 
 void read_cbush(const Card& card, RawDeck& raw) {
-  RawBush bush;
-  bush.origin = card.origin();
-  bush.id = card.id(0, "EID");
-  bush.property = card.id_or(1, "PID", bush.id);
-  bush.grids = {card.id(2, "GA"), card.id_or(3, "GB", 0)};
-  if (card.is_integer(4) && card.blank(5) && card.blank(6)) {
-    bush.orientation_grid = card.id(4, "GO");
-  } else {
-    for (size_t k = 0; k < 3; ++k) bush.orientation[k] = card.number_or(4 + k, "X", 0.0);
-  }
-  bush.system = card.integer_or(7, "CID", -1);
+  RawBush bush = without_offset(card);
   bush.share = card.number_or(8, "S", 0.5);
   bush.offset_system = card.integer_or(9, "OCID", -1);
   for (size_t k = 0; k < 3; ++k) bush.offset[k] = card.number_or(10 + k, "S", 0.0);
   card.at_most(13);
   raw.bushes.push_back(bush);
+}
+
+void read_cgap(const Card& card, RawDeck& raw) {
+  RawBush gap = without_offset(card);
+  gap.is_gap = true;
+  card.id(3, "GB");
+  card.at_most(8);
+  raw.bushes.push_back(gap);
+}
+
+// PID U0 F0 KA KB KT MU1: of a linear solution counts the stiffness of the initial state.
+void read_pgap(const Card& card, RawDeck& raw) {
+  constexpr double kOpen = 1e-14;  // of KA: the default of KB
+  const int32_t id = card.id(0, "PID");
+  const auto stiffness = [&](size_t i, const char* what, double otherwise) {
+    const double value = card.number_or(i, what, otherwise);
+    if (!(value >= 0.0)) card.fail_expected(i, what, "a stiffness of 0 or more");
+    return value;
+  };
+  RawGapProperty gap;
+  gap.origin = card.origin();
+  const double closed = stiffness(3, "KA", 0.0);
+  if (!(closed > 0.0)) card.fail_expected(3, "KA", "a stiffness above 0");
+  const double open = stiffness(4, "KB", 0.0);
+  const double across =
+      stiffness(5, "KT", card.blank(5) ? card.number_or(6, "MU1", 0.0) * closed : 0.0);
+  gap.is_open = card.number_or(1, "U0", 0.0) > 0.0;
+  gap.along = !gap.is_open ? closed : open > 0.0 ? open : kOpen * closed;
+  gap.across = gap.is_open ? 0.0 : across;
+  if (!raw.gap_properties.emplace(id, gap).second)
+    card.fail(0, fmt::format("found a second PGAP {}", id));
 }
 
 // Rows of a word and up to six numbers; those of K count.

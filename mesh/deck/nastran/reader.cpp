@@ -21,6 +21,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   Model& model = *model_owner;
   model.deck.mesh.name = name;
   model.deck.notes = std::move(notes);
+  refusals.require([&] { leave_out_fluids(model, ignore); });
   refusals.require([&] { build_mesh(model); });
   refusals.attempt([&] { build_skins(model, ignore); });
   build_couplings(model);
@@ -43,6 +44,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   note_solution(model);
   choose_mass(model);
   pass_damping(model);
+  take_damping(model);
   model.deck.passed = refusals.contents().passed_line();
   model.deck.files = source.files();
   return std::move(model.deck);

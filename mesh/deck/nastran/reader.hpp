@@ -14,7 +14,8 @@
 //                         alone
 //   CORD1R/C/S CORD2R/C/S systems "cord_5", those that something in the Deck refers to
 //   CTETRA CPYRAM CPENTA CHEXA  with any mid-side nodes or none; left-handed ones and those with
-//                         repeated nodes are repaired (cell_repair.hpp)
+//                         repeated nodes are repaired (cell_repair.hpp); cells of fluids are
+//                         refused, or left out with ignore "PFLUID"
 //   CQUAD4 CTRIA3 ...     surface "pid_5" of those on faces of solids; others are shells: refused
 //   PSOLID                region "pid_5"; CORDM counts with MAT9; IN and ISOP: the nearest
 //   integration
@@ -27,13 +28,14 @@
 //   CONM1 CONM2 MPC MPCADD RROD  masses, mass matrices, equations. A CONM2 beside a node of solids,
 //   or
 //                         with inertia there, hangs on the nodes of the cells around it
-//   CELAS1-4 PELAS CBUSH PBUSH   springs; CMASS1-4 PMASS mass matrices
+//   CELAS1-4 PELAS CBUSH PBUSH CGAP PGAP  springs, of a gap those of the state in which it begins;
+//                         CMASS1-4 PMASS mass matrices
 //   DMIG                  matrices that K2GG, K2PP, M2GG and M2PP choose
 //   SPC SPC1 SPCADD PS    supports "spc_5", "ps"; rotations of solids' nodes have no meaning and
 //                         are passed over
-//   ASET BSET CSET (1)    Deck::retained, points and directions too
+//   ASET BSET CSET (1)    Deck::retained, points and directions of each grid's CD too
 //   SET1                  node sets "set_5"
-//   FORCE(1,2) MOMENT(1,2) GRAV ACCEL RFORCE PLOAD PLOAD2 PLOAD4 LOAD TEMP TEMPD
+//   FORCE(1,2) MOMENT(1,2) GRAV ACCEL ACCEL1 RFORCE PLOAD PLOAD2 PLOAD4 SPCD LOAD TEMP TEMPD
 //                         steps "subcase_1"; without case control one step "load_5" a load set.
 //                         Pressures act on surfaces "pload4_5"; those that vary over a face or act
 //                         along a vector are forces on its nodes
@@ -41,7 +43,8 @@
 //   EIGRL EIGR            Step::modes
 //   PARAM                 WTMASS scales densities and masses, COUPMASS chooses Deck::mass, CK2 and
 //   CM2
-//                         scale DMIG; other parameters are passed over
+//                         scale DMIG; ALPHA1 and ALPHA2 are offered as damping; other
+//                         parameters are passed over
 //
 // Directions of supports, equations and couplings are those of each grid's CD. A case control alone
 // chooses SPC and MPC sets; without one the deck must have at most one of each. Of a deck with

@@ -57,7 +57,8 @@ void Supports::merge(size_t begin, size_t end) {
   }
   const Held& first = held_[begin];
   const int32_t system = model_.node_map.displacement_system(first.node_index);
-  for (const auto& [value, dofs] : by_value) {
+  const auto add = [&](double value, DofMask dofs) {
+    if (dofs == 0) return;
     auto [at, fresh] = groups_.try_emplace({system, value, dofs});
     Support& support = at->second;
     if (fresh) {
@@ -67,6 +68,12 @@ void Supports::merge(size_t begin, size_t end) {
       support.system = model_.system_name(system, first.origin);
     }
     support.node_indices.push_back(first.node_index);
+  };
+  for (const auto& [value, dofs] : by_value) {
+    // A value is a length or an angle.
+    const DofMask shifts = value == 0.0 ? dofs : static_cast<DofMask>(dofs & kTranslations);
+    add(value, shifts);
+    add(value, static_cast<DofMask>(dofs & ~shifts));
   }
 }
 

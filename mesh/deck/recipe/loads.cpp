@@ -54,6 +54,12 @@ class StepWriter {
                       toml_list({along(0), along(1), along(2)})),
           acceleration);
     }
+    if (step_.accelerations.size() > 0 && !step_.accelerations.isZero(0.0)) {
+      const std::string name = step_.name + "_accelerations";
+      deck_.mesh.fields[name] = step_.accelerations;
+      add("acceleration", fmt::format("kind = \"acceleration\"\nfield = {}\n", toml_text(name)),
+          1.0);
+    }
     for (const Step::Rotation& one : step_.rotations) {
       std::vector<std::string> regions;
       for (const std::string& region : one.regions) regions.push_back(toml_text(region));
@@ -143,7 +149,8 @@ class StepWriter {
     };
     std::vector<const Support*> all;
     for (const Support& support : deck_.supports) all.push_back(&support);
-    for (const Support& support : step_.supports) all.push_back(&support);
+    for (const auto* of_step : {&step_.supports, &step_.moved})
+      for (const Support& support : *of_step) all.push_back(&support);
     for (const Support* support : all) {
       if (support->value == 0.0) continue;
       const NamedNodes named = names_.node_indices(support->node_indices, set_name(*support));

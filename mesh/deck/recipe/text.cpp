@@ -27,8 +27,8 @@ class RecipeWriter {
     for (const auto& [card, count] : deck_.ignored)
       put("# ignored in the deck: {} ({} times)\n", card, count);
     if (!deck_.passed.empty()) put("# {}\n", deck_.passed);
-    for (const auto* said : {&deck_.renumbered, &deck_.notes})
-      for (const std::string& one : *said) put("# {}\n", one);
+    for (const Repair& one : deck_.renumbered) put("# {}\n", one.text);
+    for (const std::string& one : deck_.notes) put("# {}\n", one);
     if (deck_.mass == MassForm::kLumped)
       put("\n[mass]\nlumping = \"hrz\"  # lumped: without this table consistent\n");
     offer_damping();
@@ -64,14 +64,16 @@ class RecipeWriter {
     fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
   }
 
-  /// One model has one damping, a deck one for each material: the user decides.
+  /// One model has one damping, a deck may have several: the user decides.
   void offer_damping() {
-    for (const auto& [name, material] : deck_.materials) {
-      if (material.mass_damping == 0.0 && material.stiffness_damping == 0.0) continue;
-      put("\n# the deck's damping of {} ({}), not used unless these lines are:\n# [damping]\n# "
-          "alpha "
-          "= {}\n# beta = {}\n",
-          name, material.where, material.stiffness_damping, material.mass_damping);
+    std::vector<Damping> all = deck_.damping;
+    for (const auto& [name, material] : deck_.materials)
+      all.push_back({material.where, name, material.mass_damping, material.stiffness_damping});
+    for (const Damping& one : all) {
+      if (one.mass == 0.0 && one.stiffness == 0.0) continue;
+      put("\n# the deck's damping of {} ({}), not used unless these lines are:\n# [damping]\n"
+          "# alpha = {}\n# beta = {}\n",
+          one.of, one.where, one.stiffness, one.mass);
     }
   }
 
@@ -223,12 +225,16 @@ class RecipeWriter {
         terms_text(spring.terms));
   }
 
-  /// True for a node that a rigid coupling or an equation moves: no [[nodes]] can keep it.
+  /// True for a node that no [[nodes]] can keep along x y z: a rigid coupling or an equation moves
+  /// it, or it is retained along other axes.
   bool is_dependent(NodeIndex index) {
     if (dependent_.empty()) {
       dependent_.resize(static_cast<size_t>(deck_.mesh.nodes.rows()) + deck_.points.size(), false);
       for (const Rigid& rigid : deck_.rigid)
         for (const NodeIndex one : rigid.dependents) dependent_[static_cast<size_t>(one)] = true;
+      for (const Support& retained : deck_.retained)
+        for (const NodeIndex one : retained.node_indices)
+          if (!retained.system.empty()) dependent_[static_cast<size_t>(one)] = true;
       for (const Equation& equation : deck_.equations)
         if (!equation.terms.empty())
           dependent_[static_cast<size_t>(equation.terms[0].node_index)] = true;
@@ -267,28 +273,22 @@ class RecipeWriter {
     }
   }
 
-  /// The set of all DoFs that a condensation retains. Nodes with directions of their own system
-  /// keep all three: each follows from these.
+  /// The set of all DoFs that a condensation retains.
   void retained() {
     if (deck_.retained.empty()) return;
     put("\n[[nodes]]  # boundary = [\"retained\"] of clatter-condense\nname = \"retained\"\n");
     for (const Support& set : deck_.retained) {
-      const bool turned = !set.system.empty();
-      const auto all_of = [&](DofMask three) {
-        return turned && (set.dofs & three) != 0 ? three : static_cast<DofMask>(set.dofs & three);
-      };
-      const auto dofs = static_cast<DofMask>(
-          all_of(kTranslations) | all_of(static_cast<DofMask>(kAllDofs & ~kTranslations)));
       std::vector<NodeIndex> nodes, points;
       for (const NodeIndex index : set.node_indices)
         (names_.is_point(index) ? points : nodes).push_back(index);
-      for (const auto& [some, mask] : {std::pair(nodes, static_cast<DofMask>(dofs & kTranslations)),
-                                       std::pair(points, dofs)}) {
+      for (const auto& [some, mask] :
+           {std::pair(nodes, static_cast<DofMask>(set.dofs & kTranslations)),
+            std::pair(points, set.dofs)}) {
         if (some.empty() || mask == 0) continue;
         put("[[nodes.term]]\n");
         put_nodes(some, "retained");
-        put("directions = {}{}\n", toml_directions(mask),
-            turned ? "  # all of them: the deck's are those of system " + set.system : "");
+        put("directions = {}\n", toml_directions(mask));
+        if (!set.system.empty()) put("system = {}\n", toml_text(set.system));
       }
     }
   }

@@ -20,6 +20,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+auto says(const std::string& text) {
+  return testing::Field(&mesh::deck::Repair::text, HasSubstr(text));
+}
+
 /// The mirror image of a node numbering that another program might write: reversed orientation.
 Mesh left_handed(Mesh mesh) {
   mesh.nodes.col(0) *= -1.0;
@@ -35,7 +39,7 @@ TEST(CellRepair, LeftHandedCellsOfAllTypesBecomePositiveWithTheSameEdges) {
     Mesh turned = left_handed(right);
     turned.surfaces["skin"] = right.surfaces.at("skin");
     EXPECT_FALSE(check_validity(turned).invalid.empty());
-    EXPECT_THAT(mesh::deck::repair_cells(turned, "t"), ElementsAre(HasSubstr("are left-handed")))
+    EXPECT_THAT(mesh::deck::repair_cells(turned, "t"), ElementsAre(says("are left-handed")))
         << mesh::traits(type).name;
     EXPECT_TRUE(check_validity(turned).invalid.empty()) << mesh::traits(type).name;
     // Mid-side nodes lie on their edges: the volume is exact; faces point outward.
@@ -81,13 +85,44 @@ TEST(CellRepair, RepeatedNodesMakeSimplerCells) {
   for (const auto& [from, corners, to, volume] : cases) {
     Mesh cell = one_cell(from, corners);
     EXPECT_THAT(mesh::deck::repair_cells(cell, "t"),
-                ElementsAre(HasSubstr("with repeated nodes are read as")));
+                ElementsAre(says("with repeated nodes are read as")));
     ASSERT_EQ(cell.cells.size(), 1u);
     EXPECT_EQ(cell.cells[0].type, to);
     EXPECT_THAT(cell.cells[0].ids, ElementsAre(7));
     EXPECT_TRUE(check_validity(cell).invalid.empty());
     EXPECT_NEAR(cell_volume(cell), volume, 1e-14);
   }
+}
+
+TEST(CellRepair, MidSideNodesInAnotherOrderGoToTheEdgesInWhichTheyLie) {
+  for (const CellType type :
+       {CellType::kTet10, CellType::kHex20, CellType::kWedge15, CellType::kPyramid13}) {
+    const Mesh right = assembly::testing::block_mesh(
+        {2, 1, 1}, assembly::testing::brick({2.0, 1.0, 1.0}), {.type = type});
+    Mesh other = right;
+    const int corners = mesh::traits(type).corners;
+    auto& nodes = other.cells[0].nodes;
+    for (Eigen::Index c = 0; c < nodes.rows();
+         c += 2)  // as a writer does that lists them backwards
+      nodes.row(c).tail(nodes.cols() - corners).reverseInPlace();
+    EXPECT_FALSE(check_validity(other).invalid.empty());
+    const auto done = mesh::deck::repair_cells(other, "t");
+    ASSERT_THAT(done, ElementsAre(says("lie on other edges than their order says")));
+    EXPECT_EQ(done[0].cells, (right.cell_count() + 1) / 2) << mesh::traits(type).name;
+    EXPECT_EQ(other.cells[0].nodes, right.cells[0].nodes) << mesh::traits(type).name;
+  }
+}
+
+TEST(CellRepair, ACurvedCellKeepsItsOrderAndAFoldedOneIsNotGuessed) {
+  const Mesh straight = assembly::testing::block_mesh(
+      {1, 1, 1}, assembly::testing::brick({1.0, 1.0, 1.0}), {.type = CellType::kHex20});
+  Mesh curved = straight;
+  curved.nodes(curved.cells[0].nodes(0, 8), 2) += 0.2;  // of an edge of length 1
+  EXPECT_THAT(mesh::deck::repair_cells(curved, "t"), IsEmpty());
+  Mesh folded = straight;
+  folded.nodes(folded.cells[0].nodes(0, 8), 0) += 0.6;  // beyond the edge's end, in no middle
+  EXPECT_THAT(mesh::deck::repair_cells(folded, "t"), IsEmpty());
+  EXPECT_FALSE(check_validity(folded).invalid.empty());
 }
 
 TEST(CellRepair, ACubeWithSevenCornersIsNoCell) {
@@ -120,8 +155,7 @@ TEST(CellRepair, QuadraticOnesKeepTheirMidSideNodes) {
   EXPECT_EQ(found.mesh.cells[0].type, CellType::kWedge15);
   EXPECT_NEAR(cell_volume(found.mesh), 0.5, 1e-14);
   EXPECT_THAT(found.renumbered,
-              testing::Contains(HasSubstr("1 cells hex20 with repeated nodes are read "
-                                          "as wedge15")));
+              testing::Contains(says("1 cells hex20 with repeated nodes are read as wedge15")));
 }
 
 TEST(CellRepair, PressureActsOnFacesOfCellsThatWereRepaired) {

@@ -105,6 +105,17 @@ TEST(Check, LeftHandedCellsAreRenumbered) {
   EXPECT_EQ(found->remark, "1 of 1 cells are left-handed: their nodes are renumbered");
 }
 
+TEST(Check, RenumberedCellsAreCounted) {
+  const std::string two =
+      "PSOLID,1,1\nMAT1,1,210.,,.3\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n"
+      "GRID,4,,0.,0.,1.\nGRID,5,,1.,1.,1.\nCTETRA,1,1,1,3,2,4\nCTETRA,2,1,3,2,4,5\nENDDATA\n";
+  const CheckedDeck checked = check("c.bdf", two);
+  const auto found = std::find_if(checked.rows.begin(), checked.rows.end(),
+                                  [](const auto& one) { return one.fate == "renumbered"; });
+  ASSERT_NE(found, checked.rows.end());
+  EXPECT_EQ(found->count, 2);
+}
+
 TEST(Check, AFoldedCellIsRefusedAsInReading) {
   const std::string text =
       "PSOLID,1,1\nMAT1,1,210.,,.3\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n"

@@ -62,6 +62,27 @@ TEST(AbaqusGenerate, AParabolaGoesThroughItsMiddle) {
             Eigen::Vector3d(0.5, 0.75, 0));
 }
 
+// Each distance is BIAS times the next one: below 1 the first are the shortest.
+TEST(AbaqusGenerate, FilledNodesAreBiased) {
+  const auto x = [&](const std::string& options, int32_t node, int intervals = 3) {
+    const int last = 201 + intervals;
+    const std::string ends =
+        "*NODE, NSET=A\n201, 0, 0, 0\n*NODE, NSET=B\n" + std::to_string(last) + ", 7, 0, 0\n";
+    return made(ends + "*NFILL, " + options + "\nA, B, " + std::to_string(intervals) + ", 1\n",
+                node)[0];
+  };
+  EXPECT_NEAR(x("BIAS=0.5", 202), 1.0, kExact);  // 1, 2, 4
+  EXPECT_NEAR(x("BIAS=0.5", 203), 3.0, kExact);
+  EXPECT_NEAR(x("BIAS=2.", 202), 4.0, kExact);  // 4, 2, 1
+  EXPECT_NEAR(x("BIAS=2.", 203), 6.0, kExact);
+  // TWO STEP: 1, 2, 4 in halves.
+  const double halves[] = {0.5, 1.0, 2.0, 3.0, 5.0};
+  for (int k = 1; k < 6; ++k)
+    EXPECT_NEAR(x("BIAS=0.5, TWO STEP", 201 + k, 6), halves[k - 1], kExact) << k;
+  // Many intervals do not overflow.
+  EXPECT_NEAR(x("BIAS=0.1", 201 + 1999, 2000), 7.0 * 0.1, 1e-12);
+}
+
 TEST(AbaqusGenerate, CopiesAreMovedSeveralTimesTurnedOrReflected) {
   const std::string one = "*NODE, NSET=A\n101, 1, 2, 3\n";
   const std::string copy = "*NCOPY, CHANGE NUMBER=10, OLD SET=A, ";
@@ -109,8 +130,10 @@ TEST(AbaqusGenerate, WhatIsMissingIsNamed) {
   EXPECT_EQ(refusal(kCube + "*ELGEN\n7, 2\n"), "deck.inp:15: *ELGEN: found no element 7 before it");
   EXPECT_THAT(refusal(kCube + "*NCOPY, CHANGE NUMBER=10, OLD SET=X, SHIFT\n1, 0, 0\n"),
               HasSubstr("found no set 'X'"));
-  EXPECT_THAT(refusal(kCube + "*NFILL, BIAS=2.\nNALL, NALL, 2, 100\n"),
-              HasSubstr("BIAS=2. is not supported"));
+  EXPECT_EQ(refusal(kCube + "*NFILL, BIAS=-2.\nNALL, NALL, 2, 100\n"),
+            "deck.inp:14: *NFILL: found BIAS=-2., expected a ratio above 0");
+  EXPECT_EQ(refusal(kCube + "*NFILL, BIAS=2., TWO STEP\nNALL, NALL, 3, 100\n"),
+            "deck.inp:15: found 3 intervals with TWO STEP, expected an even number");
 }
 
 }  // namespace

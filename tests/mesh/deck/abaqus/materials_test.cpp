@@ -145,5 +145,33 @@ TEST(AbaqusSystems, InvalidAxesAreRefused) {
   EXPECT_NE(bad(", DEFINITION=NODES\n1,2,3\n").find("DEFINITION=COORDINATES"), std::string::npos);
 }
 
+TEST(AbaqusDamping, OfMaterialsAndStepsIsOffered) {
+  const std::string elastic = "*ELASTIC\n2.1E5, .3\n";
+  const Material m = material(elastic + "*DAMPING, ALPHA=2., BETA=1.E-5\n");
+  EXPECT_EQ(m.mass_damping, 2.0);
+  EXPECT_EQ(m.stiffness_damping, 1e-5);
+  EXPECT_EQ(material(elastic + "*DAMPING, ALPHA=TABULAR\n1., 20.\n").mass_damping, 0.0);
+  EXPECT_THAT(bad_material(elastic + "*DAMPING, ALPHA=x\n"),
+              ::testing::HasSubstr("expected a number (ALPHA)"));
+
+  // Of a step that is read, of one that is left out, and Rayleigh damping of modes.
+  const Deck deck =
+      read(kModel +
+           "*STEP\n*FREQUENCY\n5\n*END STEP\n"
+           "*STEP\n*GLOBAL DAMPING, ALPHA=3., BETA=2.E-5\n*STEADY STATE DYNAMICS, "
+           "DIRECT\n1., 2.\n*END STEP\n"
+           "*STEP\n*MODAL DYNAMIC\n1., 2.\n*MODAL DAMPING, RAYLEIGH\n1, 5, 4., 3.E-5\n"
+           "*GLOBAL DAMPING, FIELD=ACOUSTIC, ALPHA=9.\n*MODAL DAMPING\n1, 2, .02\n"
+           "*END STEP\n");
+  ASSERT_EQ(deck.damping.size(), 2u);
+  EXPECT_EQ(deck.damping[0].of, "*GLOBAL DAMPING");
+  EXPECT_EQ(deck.damping[0].mass, 3.0);
+  EXPECT_EQ(deck.damping[0].stiffness, 2e-5);
+  EXPECT_EQ(deck.damping[1].of, "*MODAL DAMPING");
+  EXPECT_EQ(deck.damping[1].mass, 4.0);
+  EXPECT_EQ(deck.damping[1].stiffness, 3e-5);
+  EXPECT_THAT(deck.passed, ::testing::HasSubstr("damping, offered to the recipe: *GLOBAL DAMPING"));
+}
+
 }  // namespace
 }  // namespace clatter::mesh::deck

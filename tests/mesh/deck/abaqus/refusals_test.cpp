@@ -143,5 +143,13 @@ TEST(AbaqusSteps, AfterLinearStepsOthersAreSkippedWithANote) {
               HasSubstr("deck.inp:25: keyword *DYNAMIC is not supported"));
 }
 
+TEST(AbaqusRefusals, AContinuumShellNamesTheSolidThatReplacesIt) {
+  EXPECT_THAT(refusal(kModel + "*ELEMENT, TYPE=SC8R\n50, 1, 2, 3, 4, 5, 6, 7, 8\n"),
+              HasSubstr("element type SC8R is not supported: a continuum shell; the same nodes as "
+                        "TYPE=C3D8I"));
+  EXPECT_THAT(refusal(kModel + "*ELEMENT, TYPE=SC6R\n50, 1, 2, 3, 5, 6, 7\n"),
+              HasSubstr("the same nodes as TYPE=C3D6"));
+}
+
 }  // namespace
 }  // namespace clatter::mesh::deck::testing

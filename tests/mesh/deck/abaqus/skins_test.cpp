@@ -112,5 +112,20 @@ TEST(AbaqusSolids, VariantsAreReadAsTheirNearestCounterpartWithALine) {
               HasSubstr("element type C3D8P is not supported"));
 }
 
+// A hexahedron whose fourth and third node are one is a wedge: a triangle lies on its base, and a
+// quadrilateral with the same corner twice is that triangle.
+TEST(AbaqusSkins, OnACollapsedFaceOfAHexahedronAreSurfaces) {
+  const std::string wedge =
+      "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n"
+      "*ELEMENT, TYPE=C3D8, ELSET=V\n1, 1, 2, 3, 3, 5, 6, 7, 7\n";
+  const Deck deck = read(wedge +
+                         "*ELEMENT, TYPE=S3, ELSET=FOOT\n11, 1, 2, 3\n"
+                         "*ELEMENT, TYPE=S4, ELSET=TOP\n12, 5, 6, 7, 7\n"
+                         "*ELEMENT, TYPE=S4, ELSET=SIDE\n13, 1, 2, 6, 5\n");
+  EXPECT_EQ(ids_of(deck, nodes_of(deck.mesh.surface("FOOT"))), (std::vector<int32_t>{1, 2, 3}));
+  EXPECT_EQ(ids_of(deck, nodes_of(deck.mesh.surface("TOP"))), (std::vector<int32_t>{5, 6, 7}));
+  EXPECT_EQ(ids_of(deck, nodes_of(deck.mesh.surface("SIDE"))), (std::vector<int32_t>{1, 2, 5, 6}));
+}
+
 }  // namespace
 }  // namespace clatter::mesh::deck::testing

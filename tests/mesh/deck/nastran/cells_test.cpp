@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "core/mesh/validity.hpp"
 #include "tests/mesh/deck/nastran/support.hpp"
 
 namespace clatter::test {
@@ -217,7 +218,8 @@ TEST(NastranRegions, IntegrationOfHexesIsAsThePropertySays) {
     EXPECT_EQ(k("TWO", full, 20), Formulation::kReduced);
     EXPECT_EQ(k("THREE", full, 20), Formulation::kFull);
   }
-  EXPECT_THAT(refusal(kTet + "PSOLID,2,1,,,,,PFLUID\n"), HasSubstr("no fluids"));
+  EXPECT_THAT(refusal(kTet + "PSOLID,2,1,,,,,FOO\n"),
+              HasSubstr("FCTN: found 'FOO', expected SMECH, PFLUID or FFLUID"));
 }
 
 TEST(NastranRegions, ChoicesOfIntegrationAreSaidOnceForEachKind) {
@@ -253,6 +255,23 @@ TEST(NastranRegions, PropertiesAndMaterialsThatAreNotOfSolidsAreNamed) {
   EXPECT_THAT(refusal(kTet + "CTETRA,2,8,1,2,3,4\nPSOLID,8,3\nMAT8,3,70.,30.,.3\n"),
               HasSubstr("material 3 is a MAT8, expected a MAT1 or MAT9"));
   EXPECT_EQ(refusal(kTet + "MAT8,3,70.,30.,.3\nMAT10,4,1.,1.\nPCOMP,9\nENDDATA\n"), "");
+}
+
+// A writer lists the mid-side nodes of pyramids as 1-2, 4-1, 3-4, 2-3, 2-5, 1-5, 3-5, 4-5.
+TEST(NastranCells, MidSideNodesOfAnotherOrderAreSortedAndCounted) {
+  const double at[13][3] = {{0, 0, 0},   {2, 0, 0},     {2, 2, 0},   {0, 2, 0}, {1, 1, 2},
+                            {1, 0, 0},   {0, 1, 0},     {1, 2, 0},   {2, 1, 0}, {1.5, .5, 1},
+                            {.5, .5, 1}, {1.5, 1.5, 1}, {.5, 1.5, 1}};
+  std::string text = "PSOLID,1,1\nMAT1,1,210.,,.3,7.8\n";
+  for (int i = 0; i < 13; ++i)
+    text += fmt::format("GRID,{},,{:.1f},{:.1f},{:.1f}\n", i + 1, at[i][0], at[i][1], at[i][2]);
+  const Deck deck = read_deck(text + "CPYRAM,1,1,1,2,3,4,5,6,+\n+,7,8,9,10,11,12,13\nENDDATA\n");
+  ASSERT_EQ(deck.renumbered.size(), 1u);
+  EXPECT_EQ(deck.renumbered[0].cells, 1);
+  EXPECT_TRUE(mesh::check_validity(deck.mesh).invalid.empty());
+  EXPECT_NEAR(
+      mesh::volume_of(CellType::kPyramid13, mesh::cell_nodes(deck.mesh, deck.mesh.cells[0], 0)),
+      8.0 / 3.0, 1e-14);
 }
 
 }  // namespace

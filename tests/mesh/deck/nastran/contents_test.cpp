@@ -188,5 +188,99 @@ TEST(NastranLines, ContinuationsWithABlankInTheirFirstColumnJoin) {
   EXPECT_EQ(read_deck(deck).mesh.cell_count(), 1);
 }
 
+TEST(NastranFluids, AreLeftOutOrRefusedWithTheirCells) {
+  const std::string fluid =
+      "GRID,11,,5.,0.,0.,-1\nGRID,12,,6.,0.,0.,-1\nGRID,13,,5.,1.,0.,-1\nGRID,14,,5.,0.,1.,-1\n"
+      "CTETRA,11,2,11,12,13,14\nPSOLID,2,7,,,,,PFLUID\nMAT10,7,1.,1.2\nACMODL\n";
+  EXPECT_THAT(refusal(kTet + fluid),
+              HasSubstr("t.bdf:13: PSOLID 2: 1 cells of a fluid (FCTN or MAT10), expected solids; "
+                        "ignore = [\"PFLUID\"] leaves them out: a [[point_mass]]"));
+  const Deck deck = read_deck(kTet + fluid + kEnd, {"PFLUID"});
+  EXPECT_EQ(deck.mesh.cell_count(), 1);
+  EXPECT_EQ(deck.ignored.at("PFLUID"), 1);
+  std::string plain = fluid;  // MAT10 alone says that it is a fluid
+  plain.replace(plain.find(",,,,,PFLUID"), 11, "");
+  EXPECT_THAT(refusal(kTet + plain), HasSubstr("1 cells of a fluid"));
+}
+
+TEST(NastranCards, AFieldWithPartsOfTwoIsAMisalignedLine) {
+  // Seven blanks after THREE, as in a deck whose fields begin in column 34.
+  const std::string line = "PSOLID  1       1       0       0   THREE    GRID    FULL   SMECH\n";
+  std::string deck = kTet;
+  deck.replace(0, deck.find('\n') + 1, line);
+  EXPECT_THAT(refusal(deck),
+              HasSubstr("t.bdf:1: PSOLID: IN: found '0   THRE', parts of two fields: "
+                        "align the fields of this line in columns of 8"));
+}
+
+TEST(NastranParameters, RayleighDampingIsOfferedToTheRecipe) {
+  const Deck deck = read_deck(kTet + "PARAM,ALPHA1,3.\nPARAM,ALPHA2,1.-5\n");
+  ASSERT_THAT(deck.damping, SizeIs(1));
+  EXPECT_EQ(deck.damping[0].mass, 3.0);
+  EXPECT_EQ(deck.damping[0].stiffness, 1e-5);
+}
+
+// An external superelement as decks write it: everything is read, passed over or refused by name.
+TEST(NastranSections, OfAnExternalSuperelementAllIsUsedOrSaid) {
+  const std::string residual =
+      "SEBULK,1,EXTERNAL,,MANUAL\nSECONCT,1,0,,NO,,,,,+\n+,9,9\nGRID,9,,3.,4.,5.\nCONM2,5,9,,2.\n"
+      "CELAS2,6,100.,9,1\n";
+  const std::string part = "BEGIN SUPER=1\n" + kTet +
+                           "GRID,9,,3.,4.,5.\nRBE2,7,9,123456,1,2,3\nASET1,123456,9\nCSET1,3,4\n"
+                           "SPOINT,1001,THRU,1004\nQSET1,0,1001,THRU,1004\nSESET,1,1,THRU,4\n";
+  const std::string head =
+      "SOL 103\nCEND\nMETHOD = 1\nSUPER = ALL\nSEALL = ALL\nEXTSEOUT(STIFFNESS,MASS,"
+      "DAMPING,ASMBULK,EXTID=1,DMIGPCH)\nRSMETHOD = 1\nBEGIN BULK\nEIGRL,1,,,4\n";
+  const std::string deck = head + residual + part + kEnd;
+  // What joins parts in Nastran is no part of this one: refused by name, each with its way out.
+  const std::string said = refusal(deck);
+  for (const char* card : {"SEBULK", "SECONCT", "SESET"})
+    EXPECT_THAT(said, HasSubstr(std::string("card ") + card +
+                                " is not supported: parts of other files are not assembled here; "
+                                "ignore = [\"" +
+                                card + "\"] leaves them out: a scene joins parts"));
+  const Deck found = read_deck(deck, {"SEBULK", "SECONCT", "SESET"});
+  ASSERT_THAT(found.retained, SizeIs(2));
+  EXPECT_EQ(found.retained[0].dofs, 0b000100);
+  EXPECT_THAT(found.retained[0].node_indices, ElementsAre(3));
+  EXPECT_THAT(found.retained[1].node_indices, ElementsAre(4));
+  EXPECT_THAT(found.rigid, SizeIs(1));
+  EXPECT_THAT(found.masses, IsEmpty());  // of the residual structure, which is said
+  EXPECT_THAT(found.notes, Contains(testing::AllOf(
+                               HasSubstr("BEGIN BULK has no solids"),
+                               HasSubstr("(1 masses, 1 springs, 0 couplings) are left out"))));
+  // METHOD is that of BEGIN BULK, and so is what the supports of a load case would be.
+  EXPECT_EQ(found.steps.at(0).modes, 4);
+  EXPECT_THAT(found.passed, HasSubstr("QSET1"));
+  for (const char* command : {"EXTSEOUT", "SUPER", "SEALL", "RSMETHOD"})
+    EXPECT_THAT(found.passed, HasSubstr(command));
+  EXPECT_EQ(found.ignored.at("SPOINT (of no spring, mass or equation)"), 4);
+  EXPECT_EQ(found.ignored.at("SECONCT"), 1);
+}
+
+// Case control selects sets for all sections; those of sections that are left out select nothing.
+TEST(NastranSections, SetsOfOtherSectionsAreSaidAndLeftOut) {
+  const std::string deck =
+      "SOL 101\nCEND\nSPC = 1\nLOAD = 2\nBEGIN BULK\nGRID,900,,0.,0.,9.\nSPC1,1,123456,900\n"
+      "FORCE,2,900,,1.,0.,0.,1.\nBEGIN SUPER=1\n" +
+      kTet + kEnd;
+  const Deck found = read_deck(deck);
+  EXPECT_THAT(found.supports, IsEmpty());
+  EXPECT_THAT(found.steps.at(0).forces, IsEmpty());
+  EXPECT_THAT(found.notes, Contains(HasSubstr("SPC = 1 is a set of BEGIN BULK: left out")));
+  EXPECT_THAT(found.notes, Contains(HasSubstr("LOAD = 2 is a set of BEGIN BULK: left out")));
+  std::string missing = deck;
+  missing.replace(missing.find("SPC = 1"), 7, "SPC = 8");
+  EXPECT_THAT(refusal(missing), HasSubstr("8"));  // no section has it
+}
+
+// Scalar points are numbered with the grids: new nodes of an export begin above both.
+TEST(NastranSections, TheLargestNumberIsThatOfAScalarPointToo) {
+  EXPECT_EQ(read_deck(kTet + "SPOINT,7001\nCELAS4,1,7.5,7001\n").mesh.deck.largest_node, 7001);
+  EXPECT_EQ(read_deck(kTet + "SPOINT,5,THRU,812\nQSET1,0,5,THRU,812\n").mesh.deck.largest_node,
+            812);
+  EXPECT_EQ(read_deck(kTet).mesh.deck.largest_node, 4);
+}
+
 }  // namespace
 }  // namespace clatter::test

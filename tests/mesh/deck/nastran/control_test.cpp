@@ -71,11 +71,11 @@ TEST(NastranControl, WithoutCaseControlSeveralSetsAreNamed) {
 }
 
 TEST(NastranControl, UnknownCommandsAreNamedAndCanBeIgnored) {
-  const std::string deck = "SOL 101\nCEND\nBCSET = 100\nBEGIN BULK\n" + kTet;
+  const std::string deck = "SOL 101\nCEND\nADACT = 100\nBEGIN BULK\n" + kTet;
   EXPECT_EQ(
       refusal(deck),
-      "t.bdf:3: case control command 'BCSET' is not supported; ignore = [\"BCSET\"] skips it");
-  EXPECT_EQ(read_deck(deck, {"bcset"}).ignored.at("BCSET"), 1);
+      "t.bdf:3: case control command 'ADACT' is not supported; ignore = [\"ADACT\"] skips it");
+  EXPECT_EQ(read_deck(deck, {"adact"}).ignored.at("ADACT"), 1);
   EXPECT_THAT(refusal("SOL 101\nCOMPILE X\nCEND\nBEGIN BULK\n" + kTet),
               HasSubstr("executive statement 'COMPILE' is not supported"));
   EXPECT_THAT(refusal("SOL 101\nCEND\n"), HasSubstr("expected BEGIN BULK"));

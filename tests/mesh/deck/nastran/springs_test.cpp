@@ -148,5 +148,40 @@ TEST(NastranMatrices, Conm1IsAMassOrAMatrix) {
               HasSubstr("found an inertia or offset on node 1 of solids"));
 }
 
+// Two points 2 apart along z. A gap that is closed at first is a spring along its axis and one in
+// each direction across it, without levers: a solid node of this gap has no rotation.
+TEST(NastranGap, HasTheStiffnessOfTheStateInWhichItBegins) {
+  const Deck closed = read_deck(kTet + kTwo + "CGAP,7,8,9,10\nPGAP,8,0.,5.,1000.,,,.25\nENDDATA\n");
+  ASSERT_EQ(closed.springs.size(), 3u);
+  EXPECT_EQ(closed.springs[0].stiffness, 1000.0);
+  ASSERT_EQ(closed.springs[0].terms.size(), 2u);
+  EXPECT_EQ(closed.springs[0].terms[0].direction, 2);  // along z
+  for (const size_t across : {size_t{1}, size_t{2}}) {
+    EXPECT_EQ(closed.springs[across].stiffness, 250.0);  // MU1 KA
+    for (const auto& term : closed.springs[across].terms) EXPECT_LT(term.direction, 2);
+  }
+  EXPECT_THAT(closed.notes, testing::Contains(HasSubstr(
+                                "t.bdf:10: CGAP stay as they begin, as in a linear solution: 1 "
+                                "closed (KA, KT), 0 open (KB)")));
+  const Deck open = read_deck(kTet + kTwo + "CGAP,7,8,9,1,,,,0\nPGAP,8,.1,,1000.,3.,400.\n");
+  ASSERT_EQ(open.springs.size(), 1u);  // KT acts where the gap is closed
+  EXPECT_EQ(open.springs[0].stiffness, 3.0);
+  const Deck by_default = read_deck(kTet + kTwo + "CGAP,8,,9,10\nPGAP,8,.1,,1000.\n");
+  EXPECT_DOUBLE_EQ(by_default.springs.at(0).stiffness, 1e-11);  // KB is 1e-14 KA
+}
+
+TEST(NastranGap, WithoutMeaningIsRefusedByLine) {
+  EXPECT_THAT(refusal(kTet + kTwo + "CGAP,7,8,9,10\n"),
+              HasSubstr("t.bdf:10: CGAP 7: found no PGAP 8"));
+  EXPECT_THAT(refusal(kTet + kTwo + "CGAP,7,8,9,10\nPGAP,8,0.,,AUTO\n"),
+              HasSubstr("PGAP: KA: found 'AUTO', expected a number"));
+  EXPECT_THAT(refusal(kTet + kTwo + "CGAP,7,8,9,10\nPGAP,8\n"),
+              HasSubstr("PGAP: KA: found nothing, expected a stiffness above 0"));
+  EXPECT_THAT(refusal(kTet + kTwo + "CGAP,7,8,9\nPGAP,8,,,1.\n"),
+              HasSubstr("CGAP: GB: found nothing"));
+  EXPECT_THAT(refusal(kTet + kTwo + "GRID,11,,0.,0.,3.\nCGAP,7,8,9,11\nPGAP,8,,,1.\n"),
+              HasSubstr("CGAP 7: found no CID"));
+}
+
 }  // namespace
 }  // namespace clatter::test

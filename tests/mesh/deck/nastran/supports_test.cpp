@@ -104,6 +104,15 @@ TEST(NastranSupports, RetainedGridsThatNothingUsesAreSaid) {
   EXPECT_THAT(deck.notes, ElementsAre(HasSubstr("t.bdf:10: 2 retained grids")));
 }
 
+// A length and an angle have units of their own.
+TEST(NastranSupports, AValueOfDisplacementsAndRotationsIsTwo) {
+  const Deck deck = read_deck(kTet + kPoint + "SPC,5,9,15,.25\n");
+  ASSERT_THAT(deck.supports, SizeIs(2));
+  EXPECT_EQ(deck.supports[0].dofs, 0b000001);
+  EXPECT_EQ(deck.supports[1].dofs, 0b010000);
+  EXPECT_EQ(deck.supports[1].value, 0.25);
+}
+
 TEST(NastranSupports, ExceptLeavesNumbersOutOfARange) {
   const auto held = [](const std::string& list) {
     const auto supports = read_deck(kTet + "SPC1,5,1," + list + "\n").supports;
