@@ -29,7 +29,7 @@ Further tables, any number of each:
   [[contact]]     grid of patches on a cylinder surface, one radial DoF each
   [[mean]], [[sensor]], [[nodes]]  mean displacement of a surface, node nearest to a point, node set
   [[point_mass]]  mass and inertia on a point, coupling, sensor or node set
-  [[heat]]        steady temperature field by films, fluxes, fixed temperatures, sources
+  [[heat]]        steady temperature field by films, fluxes, fixed temperatures, sources; tables of points
   [[load]]        pressure, resultant, force, gravity, centrifugal, nodal, displacement, temperature
   [[case]]        a sum of loads
 Matrices that another program assembled, instead of all these tables:

@@ -37,7 +37,8 @@ Units: m-kg-s, mm-t-s (N, MPa), mm-kg-ms (kN, GPa), mm-kg-s, cm-g-s, in-lbfs2/in
 description: kind = "deck" with [deck] source, units, ignore.
 
 Any CAD file: kind = "cad" with [cad] source = "part.step", defeature_below = 0.5 to remove faces
-narrower than that (fillets, chamfers, tiny holes); surfaces by
+narrower than that (fillets, chamfers, tiny holes), join_within = 0.005 to make faces of different
+solids one that are nearer than that (clearances, steps of micrometres); surfaces by
 cylinder = { radius, point, axis }, plane = { normal, height }, box = { min, max },
 outside = { min, max }.
 

@@ -32,15 +32,9 @@ NewMesh mesh_geometry(const MeshRequest& a, const Config& config, const std::str
                       StepClock& clock) {
   const std::string extension = a.step.empty() ? "" : cad_extension(a.step);
   MadePart made = make_part_in_child(
-      {&config, name, a.input.string(), extension, 1e-3 * a.element_size_mm}, a.limits);
+      {&config, name, a.input.string(), extension, 1e-3 * a.element_size_mm, a.accept_poor_cells},
+      a.limits);
   clock.adopt(made.steps);
-  const MeshSettings settings = read_mesh_settings(config);
-  const QualityLimits aims = aims_of(settings);
-  const LengthUnit unit = read_length_unit(config);
-  const PoorCells poor = find_poor_cells(made.part.mesh, made.part.quality, aims);
-  note_poor_cells(poor, made.part.certificate);
-  check_poor_cells(poor, made.part.mesh, aims, {unit.name, unit.metres},
-                   settings.accept_poor_cells || a.accept_poor_cells);
   NewMesh out{std::move(made.part.mesh),
               std::move(made.part.quality),
               std::move(made.part.certificate),
@@ -86,9 +80,9 @@ NewMesh read_mesh_of_deck(const std::filesystem::path& source, const UnitSystem&
   const PoorCells poor = find_poor_cells(out.mesh, out.quality);
   out.certificate = certify_mesh(out.mesh, out.quality);
   note_poor_cells(poor, out.certificate);
-  check_poor_cells(poor, out.mesh, kQualityAims,
-                   {units.name.substr(0, units.name.find('-')), units.length},
-                   true);  // a mesh of the user is never refused for quality
+  // A mesh of the user is never refused for quality.
+  refusal_of_poor_cells(poor, out.mesh, kQualityAims,
+                        {units.name.substr(0, units.name.find('-')), units.length}, true);
   const std::string config = fmt::format("source = \"{}\"\nunits = \"{}\"\nignore = [{}]\n",
                                          source.string(), units.name, fmt::join(ignore, ", "));
   out.provenance = {kMeshSchema, config, {}};
@@ -171,7 +165,7 @@ std::vector<std::string> describe(const NewMesh& result) {
   lines.push_back(fmt::format("mesh: volume against the surface integral {:.1e}",
                               c.volume_against_surface_integral));
   lines.push_back(
-      fmt::format("mesh: smallest dihedral angle {:.1f} deg in cell {} at ({:.4f}, {:.4f}, {:.4f}) "
+      fmt::format("mesh: smallest dihedral angle {:.3g} deg in cell {} at ({:.4f}, {:.4f}, {:.4f}) "
                   "m, scaled Jacobian {:.3f} in cell {}",
                   angle.worst, angle.label, angle.position.x(), angle.position.y(),
                   angle.position.z(), c.min_scaled_jacobian, result.quality.scaled_jacobian.label));

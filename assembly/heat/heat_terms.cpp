@@ -59,13 +59,14 @@ std::vector<HeatTerms> heat_terms(const PartData& part, const HeatSpec& spec) {
   for (const HeatSpec::Film& film : spec.films) {
     require_outside(mesh, skin, film.surface, spec.where);
     fe::SurfaceHeat heat =
-        fe::film_heat(mesh.nodes, mesh.surface(film.surface), film.coefficient, film.temperature);
+        fe::film_heat(mesh.nodes, mesh.surface(film.surface), on_surface(film.coefficient),
+                      on_surface(film.temperature));
     terms.push_back({"film " + film.surface, std::move(heat.H), std::move(heat.q)});
   }
   for (const HeatSpec::Flux& flux : spec.fluxes) {
     require_outside(mesh, skin, flux.surface, spec.where);
     terms.push_back({"flux " + flux.surface, none,
-                     fe::flux_heat(mesh.nodes, mesh.surface(flux.surface), flux.flux)});
+                     fe::flux_heat(mesh.nodes, mesh.surface(flux.surface), on_surface(flux.flux))});
   }
   for (const HeatSpec::Source& source : spec.sources)
     terms.push_back({fmt::format("source {}", fmt::join(source.regions, " ")), none,

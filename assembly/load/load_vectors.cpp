@@ -103,6 +103,9 @@ Eigen::VectorXd nodal_forces(const PartData& part, const LoadSpec& load, const L
   const Eigen::Index n_nodes = part.mesh.nodes.rows();
   switch (load.kind) {
     case LoadSpec::Kind::kPressure:
+      if (load.pressure.size() > 0)
+        return -integrate_pressure(part.mesh.nodes, part.mesh.surface(load.surface), load.pressure)
+                    .reshaped<Eigen::RowMajor>();
       return pressure_load(n_nodes, part.surfaces.at(load.surface));
     case LoadSpec::Kind::kResultant:
       return resultant_load(n_nodes, part.surfaces.at(load.surface), load.force);

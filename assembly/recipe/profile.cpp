@@ -16,4 +16,9 @@ double Profile::operator()(const Eigen::Vector3d& x) const {
   return (1.0 - share) * value[k - 1] + share * value[k];
 }
 
+fe::SurfaceValue on_surface(const Profile& profile) {
+  if (profile.nodal.size() > 0) return profile.nodal;
+  return profile;
+}
+
 }  // namespace clatter::assembly

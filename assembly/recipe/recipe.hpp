@@ -184,6 +184,7 @@ struct LoadSpec {
   std::string field;         // of the mesh: n x 3 [N] or [m/s2], times `value`; n x 1 [K], minus it
   std::string heat;          // a [[heat]]: its temperatures, minus `value`
   Eigen::VectorXd rise;      // temperature rise of the nodes by regions or a table [K], or empty
+  Eigen::VectorXd pressure;  // on `surface` by a table, at its nodes (n_nodes) [Pa]; or empty: 1 Pa
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // [N] per unit; gravity: unit vector
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // [N m] per unit
   fe::RotationAxis axis;                             // centrifugal: axis of rotation and

@@ -47,18 +47,49 @@ HeatSpec::Source RecipeReader::heat_source(const Config& table) const {
   return source;
 }
 
-HeatSpec RecipeReader::heat(const Config& table, const Recipe& recipe) const {
+/// A film by a table has the coefficient and the temperature of the fluid at each point, as
+/// programs of flow write them. Fits below the smallest coefficient of the table, beyond its
+/// points, are that coefficient.
+HeatSpec::Film RecipeReader::film(const Config& table, Recipe& recipe) const {
+  const Range celsius{-kZeroCelsius};
+  const std::string on = surface(table);
+  if (!table.has("table"))
+    return {on, profile(table, "coefficient", Range::positive(), 0.0),
+            profile(table, "temperature_c", celsius, kZeroCelsius)};
+  for (const char* key : {"coefficient", "temperature_c"})
+    if (table.has(key))
+      table.fail(key, fmt::format("table and {} exclude each other: the table has both columns "
+                                  "coefficient and temperature_c",
+                                  key));
+  const RowMatrix values = values_of_table(
+      table,
+      {{"coefficient", "W/(m2 K)", 0.0, true}, {"temperature_c", "degrees Celsius", -kZeroCelsius}},
+      on, recipe);
+  HeatSpec::Film film{on, {}, {}};
+  film.coefficient.nodal = values.col(0);
+  film.temperature.nodal = values.col(1).array() + kZeroCelsius;
+  return film;
+}
+
+HeatSpec::Flux RecipeReader::flux(const Config& table, Recipe& recipe) const {
+  const std::string on = surface(table);
+  if (!table.has("table")) return {on, profile(table, "flux", {}, 0.0)};
+  if (table.has("flux"))
+    table.fail("flux", "table and flux exclude each other: the table has the column flux");
+  HeatSpec::Flux flux{on, {}};
+  flux.flux.nodal = values_of_table(table, {{"flux", "W/m2"}}, on, recipe).col(0);
+  return flux;
+}
+
+HeatSpec RecipeReader::heat(const Config& table, Recipe& recipe) const {
   const Range celsius{-kZeroCelsius};
   HeatSpec spec;
   spec.name = table.text("name");
   if (spec.name.empty() || spec.name.find('/') != std::string::npos)
     table.fail("name", fmt::format("found \"{}\", expected a name without '/'", spec.name));
   spec.where = where(table, "heat " + spec.name);
-  for (const Config& one : table.tables("film"))
-    spec.films.push_back({surface(one), profile(one, "coefficient", Range::positive(), 0.0),
-                          profile(one, "temperature_c", celsius, kZeroCelsius)});
-  for (const Config& one : table.tables("flux"))
-    spec.fluxes.push_back({surface(one), profile(one, "flux", {}, 0.0)});
+  for (const Config& one : table.tables("film")) spec.films.push_back(film(one, recipe));
+  for (const Config& one : table.tables("flux")) spec.fluxes.push_back(flux(one, recipe));
   for (const Config& one : table.tables("fixed"))
     spec.fixed.push_back(
         {selection(one, "heat " + spec.name), kZeroCelsius + one.number("temperature_c", celsius)});

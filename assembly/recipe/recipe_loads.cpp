@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -67,30 +68,48 @@ Eigen::VectorXd RecipeReader::rise_of_regions(const Config& table) const {
   return sum.cwiseQuotient(regions);
 }
 
-/// The table's temperatures at the nodes; says how far the nodes are from its points, and how far
-/// the points are from linear fits. A table that is farther from the part than the part is large is
-/// refused.
-Eigen::VectorXd RecipeReader::values_of_table(const Config& table,
-                                              const std::filesystem::path& path,
-                                              const TemperatureTable& points) const {
-  constexpr double kCoarse = 0.05;  // of the table's range: an error of 5 % of the expansion
-  TableValues found = temperatures_at(points, mesh_.nodes);
+/// The columns of the file of key `table` at the nodes of the mesh, or of the surface `on` (n_nodes
+/// rows, others 0); says how far these nodes are from the points, and how far the points are from
+/// linear fits. A table that is farther from the part than the part is large is refused.
+RowMatrix RecipeReader::values_of_table(const Config& table,
+                                        const std::vector<TableColumn>& columns,
+                                        const std::string& on, Recipe& recipe) const {
+  constexpr double kCoarse = 0.05;  // of the table's range: an error of 5 % of the load's variation
+  constexpr double kConstant = 1e-9;  // of its values: a smaller range is rounding
+  const std::filesystem::path path = table.path("table");
+  recipe.files.push_back(path);
+  const PointTable points = read_point_table(path, metre_, columns);
+  std::vector<int32_t> nodes(static_cast<size_t>(mesh_.nodes.rows()));
+  if (on.empty())
+    std::iota(nodes.begin(), nodes.end(), 0);
+  else
+    nodes = mesh::nodes_of(mesh_.surface(on));
+  const TableValues found = values_at(points, mesh_.nodes(nodes, Eigen::all));
   const double size = (mesh_.nodes.colwise().maxCoeff() - mesh_.nodes.colwise().minCoeff()).norm();
   if (found.farthest > size)
     table.fail("table",
                fmt::format("a node lies {:.3g} m from the nearest point of {}, farther than the "
                            "part is large, {:.3g} m: are its positions in another length_unit?",
                            found.farthest, path.filename().string(), size));
-  const double range = points.temperature.maxCoeff() - points.temperature.minCoeff();
-  const std::string text = fmt::format(
-      "{}: nodes are at most {:.3g} mm from a point; linear fits to the points leave at most "
-      "{:.2g} K of {:.4g} K",
-      path.filename().string(), found.farthest / kMilli, found.residual, range);
-  if (found.residual > kCoarse * range)
-    warn(text + ": the table is coarse for its field, give more points there");
-  else
-    say(text);
-  return std::move(found.temperature);
+  RowMatrix values = RowMatrix::Zero(mesh_.nodes.rows(), points.values.cols());
+  values(nodes, Eigen::all) = found.values;
+  for (size_t k = 0; k < columns.size(); ++k) {
+    const auto c = static_cast<Eigen::Index>(k);
+    const double least = points.values.col(c).minCoeff();
+    const double range = points.values.col(c).maxCoeff() - least;
+    const double rounding = kConstant * points.values.col(c).cwiseAbs().maxCoeff();
+    if (columns[k].above) values(nodes, c) = found.values.col(c).cwiseMax(least);
+    const std::string text = fmt::format(
+        "{}: {}: nodes are at most {:.3g} mm from a point; linear fits to the points leave at most "
+        "{:.2g} of {:.4g} {}",
+        path.filename().string(), columns[k].name, found.farthest / kMilli, found.residuals(c),
+        range, columns[k].unit);
+    if (found.residuals(c) > kCoarse * std::max(range, rounding))
+      warn(text + ": the table is coarse for its field, give more points there");
+    else
+      say(text);
+  }
+  return values;
 }
 
 /// A rise everywhere or by regions, or temperatures above a reference: of a field of the mesh, a
@@ -121,10 +140,8 @@ void RecipeReader::temperature_load(const Config& table, LoadSpec& spec, Recipe&
     spec.value = reference();
     spec.unit = table.text_or("unit", "1");
   } else if (source == "table") {
-    const std::filesystem::path path = table.path("table");
-    recipe.files.push_back(path);
-    const TemperatureTable points = read_temperature_table(path, metre_);
-    spec.rise = values_of_table(table, path, points).array() - reference();
+    const std::vector<TableColumn> columns = {{"temperature_c", "degrees Celsius", -kZeroCelsius}};
+    spec.rise = values_of_table(table, columns, "", recipe).array() + kZeroCelsius - reference();
     spec.unit = table.text_or("unit", "1");
   } else if (source == "field") {
     spec.field = field(table, 1);
@@ -158,6 +175,10 @@ LoadSpec RecipeReader::load(const Config& table, Recipe& recipe) const {
   if (kind == "pressure") {
     spec.surface = surface(table);
     spec.unit = "Pa";
+    if (table.has("table")) {
+      spec.pressure = values_of_table(table, {{"pressure", "Pa"}}, spec.surface, recipe).col(0);
+      spec.unit = table.text_or("unit", "1");
+    }
   } else if (kind == "resultant") {
     spec.kind = LoadSpec::Kind::kResultant;
     spec.surface = surface(table);

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "assembly/recipe/point_table.hpp"
 #include "assembly/recipe/recipe.hpp"
-#include "assembly/recipe/temperature_table.hpp"
 
 namespace clatter::assembly {
 
@@ -66,8 +66,10 @@ class RecipeReader {
   void nodes(Recipe& recipe);
   void point_masses(Recipe& recipe) const;
   Profile profile(const Config& table, std::string_view key, Range range, double offset) const;
+  HeatSpec::Film film(const Config& table, Recipe& recipe) const;
+  HeatSpec::Flux flux(const Config& table, Recipe& recipe) const;
   void heats(Recipe& recipe) const;
-  HeatSpec heat(const Config& table, const Recipe& recipe) const;
+  HeatSpec heat(const Config& table, Recipe& recipe) const;
   HeatSpec::Source heat_source(const Config& table) const;
   int32_t region(const Config& table, std::string_view key, const std::string& name) const;
   void loads(Recipe& recipe) const;
@@ -75,8 +77,8 @@ class RecipeReader {
   void force_load(const Config& table, LoadSpec& spec) const;
   void temperature_load(const Config& table, LoadSpec& spec, Recipe& recipe) const;
   Eigen::VectorXd rise_of_regions(const Config& table) const;
-  Eigen::VectorXd values_of_table(const Config& table, const std::filesystem::path& path,
-                                  const TemperatureTable& points) const;
+  RowMatrix values_of_table(const Config& table, const std::vector<TableColumn>& columns,
+                            const std::string& on, Recipe& recipe) const;
   void centrifugal_load(const Config& table, LoadSpec& spec) const;
   void displacement_load(const Config& table, LoadSpec& spec) const;
   std::string field(const Config& table, Eigen::Index columns) const;

@@ -25,4 +25,9 @@ struct SurfaceIntegrals {
 /// mid-side nodes 1/3: so a constant pressure is reproduced exactly.
 SurfaceIntegrals integrate_surface(const RowMatrix& coordinates, const mesh::Surface& surface);
 
+/// int N_a p n dA [N] at all nodes (n x 3, n outward) of a pressure p [Pa] given at the nodes (n,
+/// of which those of the surface are used), between them by the shape functions of the faces.
+RowMatrix integrate_pressure(const RowMatrix& coordinates, const mesh::Surface& surface,
+                             const Eigen::VectorXd& pressure);
+
 }  // namespace clatter::assembly

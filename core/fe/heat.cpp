@@ -42,6 +42,17 @@ void for_each_face_point(const RowMatrix& nodes, const mesh::Surface& surface, c
   }
 }
 
+/// The value at a point of a face with shape functions N.
+double value_at(const SurfaceValue& value, const auto& face, const auto& N,
+                const Eigen::Vector3d& x) {
+  if (const auto* nodal = std::get_if<Eigen::VectorXd>(&value)) {
+    double sum = 0.0;
+    for (Eigen::Index a = 0; a < N.size(); ++a) sum += N(a) * (*nodal)(face(a));
+    return sum;
+  }
+  return std::get<0>(value)(x);
+}
+
 /// Adds a cell's matrix to the lower triangle.
 void add_cell(const NodePattern& pattern, const Eigen::MatrixXd& cell, const auto& nodes,
               double* values) {
@@ -119,13 +130,14 @@ Eigen::VectorXd volume_heat(const mesh::Mesh& mesh, const std::vector<double>& s
 }
 
 SurfaceHeat film_heat(const RowMatrix& nodes, const mesh::Surface& surface,
-                      const AtPosition& coefficient, const AtPosition& temperature) {
+                      const SurfaceValue& coefficient, const SurfaceValue& temperature) {
   const Eigen::Index n = nodes.rows();
   SurfaceHeat out{SparseMatrix(n, n), Eigen::VectorXd::Zero(n)};
   std::vector<Eigen::Triplet<double, int32_t>> entries;
   for_each_face_point(nodes, surface,
                       [&](const auto& face, const auto& N, const Eigen::Vector3d& x, double dS) {
-                        const double h = coefficient(x), heat = h * temperature(x);
+                        const double h = value_at(coefficient, face, N, x);
+                        const double heat = h * value_at(temperature, face, N, x);
                         for (Eigen::Index a = 0; a < N.size(); ++a) {
                           out.q(face(a)) += heat * dS * N(a);
                           for (Eigen::Index b = 0; b < N.size(); ++b)
@@ -138,11 +150,11 @@ SurfaceHeat film_heat(const RowMatrix& nodes, const mesh::Surface& surface,
 }
 
 Eigen::VectorXd flux_heat(const RowMatrix& nodes, const mesh::Surface& surface,
-                          const AtPosition& flux) {
+                          const SurfaceValue& flux) {
   Eigen::VectorXd q = Eigen::VectorXd::Zero(nodes.rows());
   for_each_face_point(nodes, surface,
                       [&](const auto& face, const auto& N, const Eigen::Vector3d& x, double dS) {
-                        const double heat = flux(x) * dS;
+                        const double heat = value_at(flux, face, N, x) * dS;
                         for (Eigen::Index a = 0; a < N.size(); ++a) q(face(a)) += heat * N(a);
                       });
   return q;

@@ -12,6 +12,7 @@
 // quadratic ones.
 #include <Eigen/Core>
 #include <functional>
+#include <variant>
 #include <vector>
 
 #include "core/base/sparse.hpp"
@@ -36,8 +37,9 @@ SparseMatrix conduction(const mesh::Mesh& mesh, const std::vector<Material>& mat
 /// one entry per region.
 Eigen::VectorXd volume_heat(const mesh::Mesh& mesh, const std::vector<double>& source);
 
-/// A value at a position [m] on a surface.
-using AtPosition = std::function<double(const Eigen::Vector3d&)>;
+/// A value on a surface: at a position [m], or at each node of the mesh (n_nodes, of which those of
+/// the surface are used), between them by the shape functions of the faces.
+using SurfaceValue = std::variant<std::function<double(const Eigen::Vector3d&)>, Eigen::VectorXd>;
 
 /// Terms of a surface: the heat that enters the part through it is sum(q - H T) [W].
 struct SurfaceHeat {
@@ -48,10 +50,10 @@ struct SurfaceHeat {
 /// A film to a fluid. @param nodes n_nodes x 3 [m]. @param coefficient h [W/(m2 K)].
 /// @param temperature T_f of the fluid [K].
 SurfaceHeat film_heat(const RowMatrix& nodes, const mesh::Surface& surface,
-                      const AtPosition& coefficient, const AtPosition& temperature);
+                      const SurfaceValue& coefficient, const SurfaceValue& temperature);
 
 /// int N^T q'' dS (n_nodes) [W] of a flux q'' into the part [W/m2].
 Eigen::VectorXd flux_heat(const RowMatrix& nodes, const mesh::Surface& surface,
-                          const AtPosition& flux);
+                          const SurfaceValue& flux);
 
 }  // namespace clatter::fe

@@ -204,9 +204,7 @@ void GmshSession::generate(const SizeSettings& settings) {
       gmsh::model::mesh::generate(3);
     });
   } catch (const NumericsError& error) {
-    throw NumericsError(
-        fmt::format("{}: choose smaller elements or more per turn where walls are thin{}",
-                    error.what(), reason_of_failure()));
+    throw NumericsError(error.what() + reason_of_failure());
   }
 }
 

@@ -98,7 +98,8 @@ class GmshSession {
   std::vector<Solids> fragment(const Solids& solids);
   /// The same without the check: OpenCASCADE's integral changes where an edge of a face becomes a
   /// spline. solid_volumes.hpp checks with the mesh.
-  std::vector<Solids> join(const Solids& solids);
+  /// Faces, edges and corners of different solids that are nearer than `within` become one.
+  std::vector<Solids> join(const Solids& solids, double within = 0.0);
   /// Name of a solid in the file it came from, "" where it has none. Joining discards them.
   std::string name_of(Solid solid);
 
@@ -106,6 +107,8 @@ class GmshSession {
   void rotate(const Solids& solids, const Eigen::Vector3d& point, const Eigen::Vector3d& axis,
               double angle_deg);
   double volume(const Solids& solids) const;
+  /// Of all faces of the solids, in the part's unit squared.
+  double area(const Solids& solids);
   Eigen::Vector3d centre(Solid solid) const;
   Solids all_solids() const;
 

@@ -170,10 +170,14 @@ std::vector<Solids> GmshSession::fragment(const Solids& solids) {
   return pieces;
 }
 
-std::vector<Solids> GmshSession::join(const Solids& solids) {
+std::vector<Solids> GmshSession::join(const Solids& solids, double within) {
   gmsh::vectorpair out;
   std::vector<gmsh::vectorpair> map;
-  gmsh_call("boolean fragment", [&] { occ::fragment(tagged(solids), {}, out, map); });
+  gmsh_call("boolean fragment", [&] {
+    gmsh::option::setNumber("Geometry.ToleranceBoolean", within);
+    occ::fragment(tagged(solids), {}, out, map);
+    gmsh::option::setNumber("Geometry.ToleranceBoolean", 0.0);
+  });
   synchronized_ = false;
   std::vector<Solids> pieces;
   for (size_t i = 0; i < solids.size(); ++i) pieces.push_back(untagged(map.at(i)));
@@ -187,6 +191,21 @@ std::string GmshSession::name_of(Solid solid) {
     gmsh::model::getEntityName(3, solid, name);
     name.erase(0, name.rfind('/') + 1);                   // of "Shapes/Engine/Nut M8"
     return name.starts_with("Open CASCADE") ? "" : name;  // a default name
+  });
+}
+
+double GmshSession::area(const Solids& solids) {
+  return gmsh_call("area", [&] {
+    synchronize();
+    gmsh::vectorpair faces;
+    gmsh::model::getBoundary(tagged(solids), faces, false, false, false);
+    double sum = 0.0;
+    for (const auto& [dim, tag] : faces) {
+      double one = 0.0;
+      occ::getMass(dim, tag, one);
+      sum += one;
+    }
+    return sum;
   });
 }
 

@@ -60,14 +60,15 @@ Solids in_order(const GmshSession& session, Solids solids) {
 }
 
 // Joins the solids at shared faces and records their original volumes.
-std::vector<CadSolid> join_solids(GmshSession& session, const Solids& solids) {
+std::vector<CadSolid> join_solids(GmshSession& session, const Solids& solids, double within) {
   std::vector<CadSolid> known;
   for (size_t i = 0; i < solids.size(); ++i) {
     CadSolid solid{session.name_of(solids[i]), i + 1, solids.size(), session.centre(solids[i])};
     solid.volume = session.volume({solids[i]});
+    if (within > 0.0) solid.slack = within * session.area({solids[i]});
     known.push_back(std::move(solid));
   }
-  const std::vector<Solids> pieces = session.join(solids);
+  const std::vector<Solids> pieces = session.join(solids, within);
   for (size_t i = 0; i < solids.size(); ++i) {
     known[i].pieces = pieces[i];
     known[i].joined = session.volume(pieces[i]);
@@ -77,16 +78,24 @@ std::vector<CadSolid> join_solids(GmshSession& session, const Solids& solids) {
 
 }  // namespace
 
-PartGeometry build_cad(GmshSession& session, const Config& table, const std::string& unit) {
+PartGeometry build_cad(GmshSession& session, const Config& table, const std::string& unit,
+                       const CadChange& change) {
+  const auto length = [&](const char* key, double changed) {
+    const double given = table.number_or(key, 0.0, Range::not_negative());
+    return changed > 0.0 ? changed : given;
+  };
   const std::string region = table.text_or("region", "solid");
   Solids solids = session.import_cad(table.path("source"), unit);
-  const double narrow = table.number_or("defeature_below", 0.0, Range::not_negative());
+  const double narrow = length("defeature_below", change.defeature_below);
+  const double within = length("join_within", change.join_within);
   if (narrow > 0.0) solids = without_small_features(session, solids, narrow, unit);
+  if (solids.size() < 2 && table.has("join_within"))
+    table.fail("join_within", "found one solid, expected several whose faces are to be joined");
   PartGeometry part;
   part.volume_tolerance =
       table.number_or("volume_tolerance", part.volume_tolerance, {0.0, 1.0, true});
   if (solids.size() > 1) {
-    part.cad_solids = join_solids(session, solids);
+    part.cad_solids = join_solids(session, solids, within);
     Solids pieces;
     for (const CadSolid& solid : part.cad_solids)
       pieces.insert(pieces.end(), solid.pieces.begin(), solid.pieces.end());

@@ -20,7 +20,7 @@ LengthUnit read_length_unit(const Config& config) {
   return {name, 1e-3};
 }
 
-PartGeometry build_part(GmshSession& session, const Config& config) {
+PartGeometry build_part(GmshSession& session, const Config& config, const CadChange& change) {
   const std::string kind = config.text("kind");
   PartGeometry part;
   if (kind == "block") {
@@ -34,7 +34,7 @@ PartGeometry build_part(GmshSession& session, const Config& config) {
   } else if (kind == "cylinder") {
     part = build_cylinder(session, config.table(kind));
   } else if (kind == "cad") {
-    part = build_cad(session, config.table(kind), read_length_unit(config).name);
+    part = build_cad(session, config.table(kind), read_length_unit(config).name, change);
   } else {
     config.fail("kind",
                 fmt::format("found '{}', expected block, piston, rod, box, cylinder or cad", kind));

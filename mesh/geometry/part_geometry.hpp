@@ -23,6 +23,7 @@ struct CadSolid {
   double volume = 0.0;        // by OpenCASCADE, as read, in the part's unit cubed
   double joined = 0.0;        // the same of its parts after the solids were joined
   Solids pieces = {};         // each a region of the part
+  double slack = 0.0;         // change of the volume that joining near faces explains
 };
 
 struct PartGeometry {
@@ -41,9 +42,14 @@ struct LengthUnit {
 };
 LengthUnit read_length_unit(const Config& config);
 
+/// Keys of [cad] that a trial sets in place of the description's; 0: does not.
+struct CadChange {
+  double defeature_below = 0.0, join_within = 0.0;
+};
+
 /// Builds the part of key `kind` ("block", "piston", "rod", "box", "cylinder", "cad") from the
 /// table of the same name, and adds the user's surfaces [surface.NAME].
-PartGeometry build_part(GmshSession& session, const Config& config);
+PartGeometry build_part(GmshSession& session, const Config& config, const CadChange& change = {});
 
 /// The only solid of a list; NumericsError for more: a boolean of connected shapes has failed.
 Solid require_one(const Solids& solids, const std::string& what);

@@ -159,7 +159,7 @@ void certify_volume(GmshSession& session, const PartGeometry& part, const RawMes
     if (std::abs(volume / integrated - 1.0) > kVolumeTolerance)
       throw NumericsError(
           fmt::format("mesh: volume {:.9g} m3, expected the CAD volume {:.9g} m3 (or {:.9g} by a "
-                      "finer skin) within 1 %: choose smaller elements or more per turn",
+                      "finer skin) within 1 %",
                       volume, cad_volume, integrated));
     say(
         fmt::format("mesh: OpenCASCADE integrates the part to {:.6g} m3, a skin twice as fine to "

@@ -15,6 +15,7 @@
 #include "core/base/whole_file.hpp"
 #include "mesh/part/gmsh_in_child.hpp"
 #include "mesh/part/mesh_wire.hpp"
+#include "mesh/part/remedies.hpp"
 
 namespace clatter {
 
@@ -30,11 +31,13 @@ namespace clatter::mesh {
 
 template <class Archive, SelfOf<MadePart> Self>
 void wire(Archive& archive, Self& s) {
-  auto& [part, config, steps, cad] = s;
-  archive(part, config, steps, cad);
+  auto& [part, config, steps, cad, refusal] = s;
+  archive(part, config, steps, cad, refusal);
 }
 
 namespace {
+
+constexpr double kLeastTrial = 30.0;  // [s] for trying advice, where the mesh took less
 
 // A temporary folder under $TMPDIR.
 class ScratchFolder {
@@ -73,7 +76,12 @@ MadePart make_part(const PartJob& job, const MeshSettings& settings,
     session.write_cad(file, unit.name);
     made.cad = read_whole_file(file);
   }
-  made.part = mesh_part(session, part, settings, unit.metres, job.name, job.where);
+  try {
+    made.part = mesh_part(session, part, settings, unit.metres, job.name, job.where);
+  } catch (const NumericsError& error) {
+    made.refusal = error.what();
+    return made;
+  }
   clock.lap("mesh");
   made.config = config.resolved();
   made.steps = clock.steps();
@@ -105,6 +113,19 @@ std::string advice_of(const ChildEnd& end) {
          "another format (STEP, BREP)";
 }
 
+/// Why the mesh is refused, or nothing; its poor cells are said and noted.
+std::string refusal_of(MadePart& made, const PartJob& job, const MeshSettings& settings) {
+  if (!made.refusal.empty()) return made.refusal;
+  const LengthUnit unit = read_length_unit(*job.config);
+  const QualityLimits aims = aims_of(settings);
+  const PoorCells poor = find_poor_cells(made.part.mesh, made.part.quality, aims);
+  note_poor_cells(poor, made.part.certificate);
+  const std::string refusal = refusal_of_poor_cells(
+      poor, made.part.mesh, aims, {unit.name, unit.metres}, settings.accept_poor_cells);
+  if (refusal.empty()) return "";
+  return refusal + "; --accept-poor-cells ([mesh] accept_poor_cells = true) takes it nevertheless";
+}
+
 struct Attempt {
   MeshSettings settings;
   std::string difference;  // from the requested settings
@@ -125,15 +146,24 @@ MadePart make_part_in_child(const PartJob& job, const ChildLimits& limits) {
   const Stopwatch clock;
   MeshSettings requested = read_mesh_settings(*job.config);
   if (job.element_size > 0.0) requested.element_size = job.element_size;
+  requested.accept_poor_cells = requested.accept_poor_cells || job.accept_poor_cells;
   std::optional<ScratchFolder> scratch;
   ChildLimits mine = with_news(limits);
   if (!job.cad_extension.empty()) mine.scratch = scratch.emplace().path();
   const auto attempt = [&](const MeshSettings& settings) {
     return run_in_child(mine, [&] { return to_wire(make_part(job, settings, mine.scratch)); });
   };
+  const auto advice = [&] {
+    const double took = clock.seconds();
+    double most = std::max(kLeastTrial, took);
+    if (limits.seconds > 0.0) most = std::min(most, limits.seconds - took);
+    return tried_advice(job, requested, mine, most);
+  };
   const auto made_of = [&](const ChildEnd& end, double simpler) {
     auto made = from_wire<MadePart>(end.result);
     made.part.certificate.simpler_setting = simpler;
+    if (const std::string refusal = refusal_of(made, job, requested); !refusal.empty())
+      throw NumericsError(refusal + advice());
     return made;
   };
 
@@ -153,10 +183,11 @@ MadePart make_part_in_child(const PartJob& job, const ChildLimits& limits) {
                      simpler.difference));
     return made_of(second, requested.elements_per_turn > 0 ? 1.0 : 2.0);
   }
-  throw NumericsError(fmt::format("{}; then, {}: {}; try another element_size_mm{}, or {}", fall,
-                                  simpler.difference, describe_end(second, limits),
-                                  requested.local.empty() ? "" : " or local sizes",
-                                  advice_of(second)));
+  const std::string both =
+      fmt::format("{}; then, {}: {}", fall, simpler.difference, describe_end(second, limits));
+  if (!fell_while_meshing(second))
+    throw NumericsError(fmt::format("{}; {}", both, advice_of(second)));
+  throw NumericsError(fmt::format("{}{}; or {}", both, advice(), advice_of(second)));
 }
 
 }  // namespace clatter::mesh

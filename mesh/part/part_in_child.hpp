@@ -20,6 +20,7 @@ struct PartJob {
   std::string name, where;         // of the part; prefix of messages: the description's path
   std::string cad_extension;       // ".step" or ".brep": write the geometry too; empty: no
   double element_size = 0.0;       // overrides the description's [m]; 0: does not
+  bool accept_poor_cells = false;  // overrides the description's, when true
 };
 
 struct MadePart {
@@ -27,6 +28,7 @@ struct MadePart {
   std::string config;                  // Config::resolved()
   std::vector<StepClock::Step> steps;  // duration of each step
   std::string cad;                     // content of the geometry file, if requested
+  std::string refusal;                 // instead of all these: why there is no valid mesh
 };
 
 /// Builds the part, checks that its description holds no unknown key, and meshes it; identical to
@@ -36,8 +38,9 @@ struct MadePart {
 /// without `elements_per_turn` if that was set, else with MeshAdapt on the faces; the certificate's
 /// `simpler_setting` is then 1 or 2, else 0. NumericsError in one line, with what Gmsh was doing
 /// and with which sizes, when that fails too, when Gmsh crashes while it builds the geometry, and
-/// at a limit of time (both attempts together) or memory. Errors as of build_part() and
-/// mesh_part().
+/// at a limit of time (both attempts together) or memory; and when the mesh is not valid or its
+/// cells are too poor (poor_cells.hpp). Advice in it has been tried (remedies.hpp), for as long as
+/// the refused mesh took, half a minute at least. Other errors as of build_part().
 MadePart make_part_in_child(const PartJob& job, const ChildLimits& limits);
 
 }  // namespace clatter::mesh

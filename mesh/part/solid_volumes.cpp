@@ -74,13 +74,16 @@ void check_solid_volumes(const PartGeometry& part, const Mesh& mesh, double metr
         "{}: its volume is by OpenCASCADE {:.9g} mm3 as read and {:.9g} mm3 after joining it with "
         "its neighbours, by its mesh {:.9g} mm3",
         name_of(solid, metres_per_unit), kMm3 * read, kMm3 * joined, kMm3 * found.curved);
-    const double allowed = found.chords + part.volume_tolerance * read;
+    const double allowed = found.chords + part.volume_tolerance * read + cubed * solid.slack;
     if (std::abs(found.curved - read) > allowed)
       throw NumericsError(fmt::format(
-          "{}: {}, where chords explain {:.3g} mm3: a part was lost or doubled, or OpenCASCADE's "
+          "{}: {}, where chords explain {:.3g} mm3{}: a part was lost or doubled, or OpenCASCADE's "
           "integral is wrong; look at the mesh with a larger cad.volume_tolerance (now {:g}, of "
           "the volume), or repair the solid in its CAD program, or remove it",
-          where, text, kMm3 * found.chords, part.volume_tolerance));
+          where, text, kMm3 * found.chords,
+          solid.slack > 0.0 ? fmt::format(" and join_within {:.3g}", kMm3 * cubed * solid.slack)
+                            : "",
+          part.volume_tolerance));
     say(fmt::format("mesh: {}: as read, within its chords", text));
   }
 }

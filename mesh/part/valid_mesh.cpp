@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 #include <set>
@@ -22,8 +23,9 @@ namespace {
 
 constexpr double kSpotFactor = 0.6;    // finer cells where slivers were
 constexpr double kFoldFactor = 0.5;    // and where cells folded
-constexpr size_t kHopeless = 2;        // times as many slivers: the part itself is that sharp
+constexpr size_t kHopeless = 2;        // times as many slivers or folds: the part is that sharp
 constexpr int64_t kMostGrowth = 2;     // times as many cells: beyond that slivers are only reported
+constexpr double kManySlivers = 0.01;  // of the cells
 constexpr size_t kManyFolds = 500;     // HighOrder takes 0.2 s for each
 constexpr double kLargestPull = 0.05;  // of the edge
 constexpr double kPulledRatio = 0.05;  // smallest scaled Jacobian after straightening
@@ -86,21 +88,31 @@ std::vector<FineSpot> spots_at_slivers(const Mesh& mesh, double limit_deg) {
   return spots;
 }
 
-bool has_angle_below(const Mesh& mesh, double limit_deg) {
-  return std::any_of(mesh.cells.begin(), mesh.cells.end(), [&](const CellBlock& block) {
-    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
-      if (smallest_dihedral(corners_of(mesh, block, c), limit_deg) < limit_deg) return true;
-    return false;
-  });
+// The share of the volume in cells with a smaller angle.
+double share_below(const Mesh& mesh, double limit_deg) {
+  double below = 0.0, all = 0.0;
+  for (const CellBlock& block : mesh.cells)
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
+      const Eigen::Matrix<double, 4, 3> x = corners_of(mesh, block, c);
+      const double volume = (x.bottomRows<3>().rowwise() - x.row(0)).eval().determinant();
+      all += volume;
+      if (smallest_dihedral(x, limit_deg) < limit_deg) below += volume;
+    }
+  return below / all;
 }
+
+struct Slivers {
+  size_t count = 0;
+  int64_t cells = 0;  // of the mesh
+};
 
 // Meshes and removes slivers; while some remain, meshes again with finer spots. Leaves the attempt
 // with the fewest in the session, made quadratic, and its sizes in `sizes`.
-void generate_without_slivers(GmshSession& session, const MeshSettings& settings,
-                              SizeSettings& sizes, bool split_corners) {
+Slivers generate_without_slivers(GmshSession& session, const MeshSettings& settings,
+                                 SizeSettings& sizes, bool split_corners) {
   const double target = settings.min_dihedral_deg;
-  int64_t cells = 0;         // of the attempt, as Gmsh made it
-  bool below_floor = false;  // it would be refused
+  int64_t cells = 0;     // of the attempt, as Gmsh made it
+  bool refused = false;  // for its flat cells
   const auto attempt = [&](const SizeSettings& trial) {
     session.generate(trial);
     RawMesh raw = session.extract();
@@ -115,25 +127,34 @@ void generate_without_slivers(GmshSession& session, const MeshSettings& settings
       for (auto& entry : raw.cells) entry.second = linear.cells[b++].nodes;
       session.replace_cells(raw);
     }
-    below_floor = has_angle_below(linear, kQualityFloor.dihedral_deg);
+    refused = effect_of_share(share_below(linear, kQualityFloor.dihedral_deg)) > kMostEffect;
     return spots_at_slivers(linear, target);
   };
   SizeSettings trial = sizes;
   std::vector<FineSpot> spots = attempt(trial);
   size_t fewest = spots.size();
-  const int64_t most = below_floor ? std::numeric_limits<int64_t>::max() : kMostGrowth * cells;
+  const int64_t most = refused ? std::numeric_limits<int64_t>::max() : kMostGrowth * cells;
+  bool is_best = true;  // the last attempt
   for (int pass = 0; !spots.empty() && pass < settings.refine_passes; ++pass) {
     say(fmt::format("mesh: {} cells have a dihedral angle below {:.1f} deg, refining there",
                     spots.size(), target));
     trial.spots.insert(trial.spots.end(), spots.begin(), spots.end());
     spots = attempt(trial);
+    is_best = false;
     if (spots.size() > kHopeless * fewest || cells > most) break;
     if (spots.size() >= fewest) continue;
     fewest = spots.size();
     sizes = trial;
+    is_best = true;
   }
-  if (!spots.empty()) attempt(sizes);
+  if (!is_best) attempt(sizes);
   session.make_quadratic();
+  return {fewest, cells};
+}
+
+// Fewer are no sign of a sharp part.
+size_t many_slivers(const Slivers& slivers) {
+  return static_cast<size_t>(kManySlivers * static_cast<double>(slivers.cells));
 }
 
 // Where cells remain folded, the size does not fit the curvature.
@@ -144,6 +165,13 @@ void add_spots_at_folds(SizeSettings& sizes, const Mesh& mesh, const ValidityRep
     const double mean = mean_edge(x) / metres_per_unit;
     sizes.spots.push_back({cell.centre / metres_per_unit, mean, kFoldFactor * mean});
   }
+}
+
+// The most that cells far below the aims change frequencies; those a little below are many.
+double effect_of_squeezed(const Mesh& mesh) {
+  Mesh with_skin = mesh;
+  with_skin.surfaces["skin"] = skin_of(boundary_faces(mesh));
+  return find_poor_cells(with_skin, measure_quality(mesh), kQualityFloor).most_effect();
 }
 
 // "face 7 (Plane, centre (1, 2, 3))" of the faces that contain any of the nodes, in the part's
@@ -173,8 +201,7 @@ void pull_straight(GmshSession& session, const ValidityReport& folded, Mesh& mes
   if (!too_far.empty())
     throw NumericsError(fmt::format(
         "mesh: {} of {} cells are invalid after repair and {} nodes would have to leave the "
-        "geometry by more than {:g} of their edge; on the faces: {}; choose smaller elements or "
-        "more per turn there: {}",
+        "geometry by more than {:g} of their edge; on the faces: {}: {}",
         folded.invalid.size(), mesh.cell_count(), too_far.size(), kLargestPull,
         describe_faces_at(session, too_far), describe_invalid(folded, 5)));
   repair.pulled = static_cast<int64_t>(pulled.size());
@@ -203,8 +230,9 @@ Repair make_valid_mesh(GmshSession& session, const PartGeometry& part, const Mes
                        SizeSettings sizes, double metres_per_unit, Mesh& mesh) {
   Repair repair;
   ValidityReport folded;
+  size_t fewest_folds = std::numeric_limits<size_t>::max(), fewest_slivers = fewest_folds;
   for (int pass = 0;; ++pass) {
-    generate_without_slivers(session, settings, sizes, pass > 0);
+    const Slivers slivers = generate_without_slivers(session, settings, sizes, pass > 0);
     mesh = convert(session.extract(), part, metres_per_unit);
     enter_step("unfolding curved cells");
     const ValidityReport before = check_validity(mesh);
@@ -212,10 +240,16 @@ Repair make_valid_mesh(GmshSession& session, const PartGeometry& part, const Mes
     repair.min_ratio_before = before.min_ratio;
     unfold_cells(mesh, settings.min_scaled_jacobian);
     folded = check_validity(mesh);
-    // HighOrder depends on memory addresses and is not reproducible. Finer cells come first.
-    const bool last = pass >= settings.refine_passes;
+    // HighOrder depends on memory addresses and is not reproducible. Finer cells come first, and
+    // squeezed cells without effect stay.
+    fewest_folds = std::min(fewest_folds, std::max<size_t>(folded.invalid.size(), 1));
+    fewest_slivers = std::min(fewest_slivers, std::max(slivers.count, many_slivers(slivers)));
+    const bool last = pass >= settings.refine_passes ||
+                      folded.invalid.size() > kHopeless * fewest_folds ||
+                      slivers.count > kHopeless * fewest_slivers;
     if (folded.min_ratio < kQualityFloor.scaled_jacobian && (last || folded.invalid.empty()) &&
-        before.invalid.size() <= kManyFolds)
+        before.invalid.size() <= kManyFolds &&
+        (!folded.invalid.empty() || effect_of_squeezed(mesh) > kHarmless))
       optimise(session, part, settings, metres_per_unit, mesh, folded, repair);
     if (folded.invalid.empty()) return repair;
     if (last) break;

@@ -27,8 +27,7 @@ MeshCertificate certify_mesh(const Mesh& mesh, const QualityReport& quality) {
   if (against_surface > kClosedTolerance || open > kClosedTolerance || inward > 0.0) {
     throw NumericsError(fmt::format(
         "mesh: the boundary is not closed and outward: volume differs by {:.3g}, |sum n dS| / area "
-        "= {:.3g}, {} inward normals: choose smaller elements or more per turn where walls are "
-        "thin",
+        "= {:.3g}, {} inward normals",
         against_surface, open, inward));
   }
   return {.cells = static_cast<double>(mesh.cell_count()),

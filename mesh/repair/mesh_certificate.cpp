@@ -41,10 +41,12 @@ const std::vector<CertificateField<MeshCertificate>>& MeshCertificate::fields() 
        "of tetrahedra: smallest 3 r_in / r_circum, 1 for a regular one"},
       {"poor_cells", &C::poor_cells, "", "cells below the targets of quality"},
       {"poor_cells_below_floor", &C::poor_cells_below_floor, "",
-       "of these, cells below the limit of refusal"},
+       "of these, cells under 0.1 deg or a scaled Jacobian of 0.02"},
       {"poor_cells_volume_share", &C::poor_cells_volume_share, "", "their share of the volume"},
       {"poor_cells_frequency_effect", &C::poor_cells_frequency_effect, "",
        "estimated relative change of frequencies by them"},
+      {"poor_cells_most_effect", &C::poor_cells_most_effect, "",
+       "the most that they can change frequencies, relative; above 0.05 a mesh is refused"},
       {"simpler_setting", &C::simpler_setting, "",
        "0: meshed as requested; 1: Gmsh succeeded only without `elements_per_turn`, 2: only with "
        "MeshAdapt on the faces"}};

@@ -19,7 +19,7 @@ struct MeshCertificate {
   double min_dihedral_deg = 0.0, max_dihedral_deg = 0.0, min_radius_ratio = 0.0;
   // By note_poor_cells().
   std::optional<double> poor_cells{}, poor_cells_below_floor{}, poor_cells_volume_share{};
-  std::optional<double> poor_cells_frequency_effect{};
+  std::optional<double> poor_cells_frequency_effect{}, poor_cells_most_effect{};
   // Of a geometry meshed here, by mesh_part() and make_part_in_child().
   std::optional<double> predicted_cells{}, occ_volume_m3{}, cad_volume_m3{}, volume_against_cad{};
   std::optional<double> invalid_cells_before_repair{}, min_scaled_jacobian_before_repair{};

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/mesh/boundary.hpp"
@@ -44,20 +46,47 @@ std::string name_positions(const std::vector<WorstCell>& cells, int64_t count,
                      count > static_cast<int64_t>(names.size()) ? ", ..." : "");
 }
 
-std::string effect_text(const PoorCells& poor) {
-  if (!poor.has_estimate) return "";
-  return poor.frequency_effect < 1e-6 ? ", estimated effect on frequencies below 0.0001 %"
-                                      : fmt::format(", estimated effect on frequencies {:.2g} %",
-                                                    100.0 * poor.frequency_effect);
+/// Volume of the cells with one of the marked nodes.
+double volume_at(const Mesh& mesh, const std::vector<bool>& marked) {
+  double volume = 0.0;
+  for (const CellBlock& block : mesh.cells)
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
+      if (std::any_of(block.nodes.row(c).begin(), block.nodes.row(c).end(),
+                      [&](int32_t node) { return marked[static_cast<size_t>(node)]; }))
+        volume += volume_of(block.type, cell_nodes(mesh, block, c));
+  return volume;
 }
 
+std::string percent(double value) {
+  return value < 1e-6 ? "below 0.0001 %" : fmt::format("{:.2g} %", 100.0 * value);
+}
+
+std::string effect_text(const PoorCells& poor) {
+  if (!poor.has_estimate) return "";
+  return fmt::format(", estimated effect on frequencies {}, at most {}",
+                     percent(poor.frequency_effect), percent(poor.most_effect()));
+}
+
+constexpr double kAtAnEnd = 4.0;       // energy per length of a clamped beam, over its mean
+constexpr double kAtTheSurface = 3.0;  // energy per volume of a bent wall, over its mean
+
 }  // namespace
+
+double effect_of_share(double share_below_floor) {
+  return 0.5 * kAtAnEnd * kAtTheSurface * share_below_floor;  // half of omega^2
+}
+
+double PoorCells::most_effect() const {
+  return kAtAnEnd * frequency_effect + effect_of_share(share_below_floor) +
+         kMostEffect * share_around;
+}
 
 PoorCells find_poor_cells(const Mesh& mesh, const QualityReport& quality,
                           const QualityLimits& aims) {
   PoorCells poor;
   std::vector<CellIndex> indices;
-  double volume = 0.0;
+  std::vector<bool> far(static_cast<size_t>(mesh.nodes.rows()), false);
+  double volume = 0.0, far_below = 0.0;
   for (size_t b = 0; b < mesh.cells.size(); ++b) {
     const CellBlock& block = mesh.cells[b];
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
@@ -66,15 +95,22 @@ PoorCells find_poor_cells(const Mesh& mesh, const QualityReport& quality,
       if (!is_below(cell, aims)) continue;
       poor.flat += cell.dihedral_deg < aims.dihedral_deg;
       poor.squeezed += cell.scaled_jacobian < aims.scaled_jacobian;
-      poor.below_floor += is_below(cell, kQualityFloor);
       poor.has_estimate = poor.has_estimate || traits(block.type).order > 1;
       volume += volume_of(block.type, x);
+      if (is_below(cell, kQualityFloor)) {
+        ++poor.below_floor;
+        far_below += volume_of(block.type, x);
+        for (const int32_t node : block.nodes.row(c)) far[static_cast<size_t>(node)] = true;
+      }
       indices.emplace_back(static_cast<int32_t>(b), static_cast<int32_t>(c));
     }
   }
   poor.cells = static_cast<int64_t>(indices.size());
   if (indices.empty()) return poor;
-  poor.volume_share = volume / cell_volume(mesh);
+  const double all = cell_volume(mesh);
+  poor.volume_share = volume / all;
+  poor.share_below_floor = far_below / all;
+  if (poor.below_floor > 0) poor.share_around = volume_at(mesh, far) / all;
   poor.frequency_effect = frequency_effect(mesh, indices);
   poor.worst_flat = worst_below(quality.min_dihedral_deg, aims.dihedral_deg);
   poor.worst_squeezed = worst_below(quality.scaled_jacobian, aims.scaled_jacobian);
@@ -102,22 +138,20 @@ void note_poor_cells(const PoorCells& poor, MeshCertificate& certificate) {
   certificate.poor_cells_below_floor = static_cast<double>(poor.below_floor);
   certificate.poor_cells_volume_share = poor.volume_share;
   certificate.poor_cells_frequency_effect = poor.frequency_effect;
+  certificate.poor_cells_most_effect = poor.most_effect();
 }
 
-void check_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimits& aims,
-                      const PositionUnit& unit, bool accept) {
-  if (poor.cells == 0) return;
-  const std::string what = describe_poor_cells(poor, mesh, aims, unit);
-  if (poor.below_floor == 0 || accept) {
-    warn("mesh: " + what);
-    return;
-  }
-  throw NumericsError(fmt::format(
-      "mesh: {} cells are below {:g} deg or a scaled Jacobian of {:g}, too poor to be trusted; {}: "
-      "choose another element_size_mm or finer [[mesh.local]] there, suppress small features by "
-      "[cad] defeature_below, or accept the mesh with --accept-poor-cells ([mesh] "
-      "accept_poor_cells = true)",
-      poor.below_floor, kQualityFloor.dihedral_deg, kQualityFloor.scaled_jacobian, what));
+std::string refusal_of_poor_cells(const PoorCells& poor, const Mesh& mesh,
+                                  const QualityLimits& aims, const PositionUnit& unit,
+                                  bool accept) {
+  if (poor.cells == 0) return "";
+  const std::string what = "mesh: " + describe_poor_cells(poor, mesh, aims, unit);
+  const double most = poor.most_effect();
+  if (most > kMostEffect && !accept)
+    return fmt::format("{}: more than {:g} % is too poor to be trusted", what, 100.0 * kMostEffect);
+  // Of linear cells nothing is known.
+  (most > kHarmless || !poor.has_estimate ? warn : say)(what);
+  return "";
 }
 
 }  // namespace clatter::mesh

@@ -6,10 +6,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <random>
 #include <set>
 
-#include "assembly/recipe/temperature_table.hpp"
+#include "assembly/recipe/point_table.hpp"
 #include "core/fe/fe_model.hpp"
 #include "small_solver.hpp"
 #include "tests/refusal.hpp"
@@ -69,6 +68,8 @@ TEST(TemperatureLoad, ByRegionsIsConstantInEachAndTheMeanBetween) {
                      {"bdoy: found \"bdoy\", expected one of: body, top"});
 }
 
+const std::vector<TableColumn> kCelsius = {{"temperature_c", "degrees Celsius", -273.15}};
+
 class TemperatureFile : public ::testing::Test {
  protected:
   void SetUp() override { path_ = test::scratch_path("temperature.csv"); }
@@ -79,16 +80,15 @@ class TemperatureFile : public ::testing::Test {
 
 TEST_F(TemperatureFile, IsReadInTheUnitsOfItsHeader) {
   write("x,y,z,temperature_c\n1,2,3,20\n4, 5, 6, -3.15\n\n");
-  const TemperatureTable table = read_temperature_table(path_, 1e-3);
+  const PointTable table = read_point_table(path_, 1e-3, kCelsius);
   EXPECT_EQ(table.points, (RowMatrix(2, 3) << 1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3).finished());
-  EXPECT_NEAR(table.temperature(0), 293.15, 1e-12);
-  EXPECT_NEAR(table.temperature(1), 270.0, 1e-12);
+  EXPECT_EQ(table.values, (RowMatrix(2, 1) << 20.0, -3.15).finished());
 }
 
 TEST_F(TemperatureFile, ThatIsDifferentIsRefusedWithItsLine) {
   const auto message = [&](const std::string& text) {
     write(text);
-    return test::refusal_of([&] { read_temperature_table(path_, 1.0); });
+    return test::refusal_of([&] { read_point_table(path_, 1.0, kCelsius); });
   };
   test::expect_parts(message("x,y,z,T\n1,2,3,4\n"),
                      {".csv:1: found \"x,y,z,T\", expected the header \"x,y,z,temperature_c\""});
@@ -112,48 +112,6 @@ TEST_F(TemperatureFile, GivesTheRiseOfALoadAtTheNodes) {
           .model;
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
     EXPECT_NEAR(model.temperature_rise.at("t")(a), 7.0 * static_cast<double>(a % 13), 1e-9);
-}
-
-TEST(TemperatureTable, LinearFieldsAreInterpolatedExactly) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  TemperatureTable table{RowMatrix(200, 3), Eigen::VectorXd(200)};
-  const Eigen::RowVector3d slope(30.0, -20.0, 50.0);
-  for (double& x : table.points.reshaped()) x = unit(random);
-  table.temperature = (table.points * slope.transpose()).array() + 300.0;
-  RowMatrix nodes(50, 3);
-  for (double& x : nodes.reshaped()) x = unit(random);
-  const Eigen::VectorXd exact = (nodes * slope.transpose()).array() + 300.0;
-  EXPECT_LT((temperatures_at(table, nodes).temperature - exact).cwiseAbs().maxCoeff(), 1e-9);
-  EXPECT_LT(temperatures_at(table, nodes).residual, 1e-9);
-  // Points in a plane: the field of the plane, constant across it.
-  table.points.col(2).setZero();
-  table.temperature = (table.points * slope.transpose()).array() + 300.0;
-  const Eigen::VectorXd flat = (nodes.leftCols(2) * slope.head<2>().transpose()).array() + 300.0;
-  EXPECT_LT((temperatures_at(table, nodes).temperature - flat).cwiseAbs().maxCoeff(), 1e-8);
-  // One point: its temperature everywhere.
-  const TemperatureTable one{RowMatrix::Zero(1, 3), Eigen::VectorXd::Constant(1, 333.0)};
-  EXPECT_LT((temperatures_at(one, nodes).temperature.array() - 333.0).abs().maxCoeff(), 1e-12);
-}
-
-// The eight nearest points lie in one plane wherever planes are farther apart than points in them.
-TEST(TemperatureTable, GradientsAcrossPlanesOfPointsAreExact) {
-  TemperatureTable table{RowMatrix(13 * 17 * 10, 3), Eigen::VectorXd(13 * 17 * 10)};
-  Eigen::Index k = 0;
-  for (int plane = 0; plane < 13; ++plane)
-    for (int i = 0; i < 17; ++i)
-      for (int j = 0; j < 10; ++j) table.points.row(k++) << 2.5 * i, 4.4 * j, 10.0 * plane;
-  table.temperature = (table.points.col(2) * (100.0 / 120.0)).array() + 300.0;
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  RowMatrix nodes(60, 3);
-  for (Eigen::Index a = 0; a < nodes.rows(); ++a)
-    nodes.row(a) << 40.0 * unit(random), 39.6 * unit(random), -2.0 + 124.0 * unit(random);
-  const Eigen::VectorXd exact = (nodes.col(2) * (100.0 / 120.0)).array() + 300.0;
-  const TableValues found = temperatures_at(table, nodes);
-  EXPECT_LT((found.temperature - exact).cwiseAbs().maxCoeff(), 1e-9);
-  EXPECT_GT(found.farthest, 4.0);
-  EXPECT_LT(found.farthest, std::hypot(1.25, 2.2, 5.0));
 }
 
 TEST_F(TemperatureFile, ThatIsFarFromThePartIsRefused) {

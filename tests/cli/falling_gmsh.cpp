@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loaded before Gmsh (LD_PRELOAD): its mesher fails in the way that CLATTER_TEST_GMSH names;
 // with the prefix "curved-" only where elements follow the curvature, with "frontal-" only with the
-// frontal algorithm. Otherwise the call is passed on to Gmsh.
+// frontal algorithm, with "large-" only with cells above 6.5. Otherwise the call is passed on to
+// Gmsh.
 #include <dlfcn.h>
 #include <gmsh.h>
 #include <unistd.h>
@@ -38,7 +39,8 @@ bool falls_here(std::string& way) {
     way.erase(0, prefix.size());
     return holds;
   };
-  return when("curved-", option("Mesh.MeshSizeFromCurvature") > 0.0) &&
+  return when("large-", option("Mesh.MeshSizeMax") > 6.5) &&
+         when("curved-", option("Mesh.MeshSizeFromCurvature") > 0.0) &&
          when("frontal-", option("Mesh.Algorithm") == 6.0);
 }
 

@@ -68,7 +68,15 @@ class HardN17GmshFalls(unittest.TestCase):
         observed(f"refused: {next(line for line in said.splitlines() if 'error: ' in line).partition('error: ')[2]}")
         self.assertEqual(said.count("warning: "), 1)
         self.assertIn("trying again without elements_per_turn", said)
-        self.assert_falls("abort", ["MeshAdapt"])
+        # Advice is tried: no size works.
+        self.assert_falls("abort", ["MeshAdapt", "; tried in vain: element_size_mm = 6.3; elements_per_turn = 12; "
+                                    "element_size_mm = 13; or heal"])
+        self.assertNotIn("this works", said)
+
+    def test_advice_has_been_tried_and_works(self):
+        self.assert_falls("large-abort", ["; this works, it was tried: element_size_mm = 6.3 (", " cells); or heal"])
+        (self.folder / "tube.mesh.toml").write_text(TUBE.replace("9.0", "6.3"))
+        self.assertEqual(self.mesh("large-abort").returncode, 0)
 
     def test_aborts_exits_and_unknown_exceptions_are_reported(self):
         self.assert_falls("terminate", ["signal 6", "terminate called after throwing an instance of 'std::string'"])

@@ -28,7 +28,8 @@ MadePart make(const std::string& toml, const std::string& cad_extension = "") {
 
 TEST(HardN17_GmshInAChild, TheSameBitsAsInThisProcess) {
   const MadePart there = make(kChildTube, ".brep");
-  const PartMesh here = mesh_toml(kChildTube).part;
+  PartMesh here = mesh_toml(kChildTube).part;
+  note_poor_cells(find_poor_cells(here.mesh, here.quality), here.certificate);
   EXPECT_EQ(there.part.mesh.name, here.mesh.name);
   EXPECT_EQ(there.part.mesh.nodes, here.mesh.nodes);
   EXPECT_EQ(there.part.mesh.regions, here.mesh.regions);

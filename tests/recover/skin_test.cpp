@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "recover/skin/panels.hpp"
+#include "recover/skin/sensors.hpp"
 #include "recover/skin/triangle6.hpp"
 #include "synthetic.hpp"
 #include "tests/refusal.hpp"
@@ -46,6 +47,28 @@ TEST(Triangle6, ShapeFunctionsAreOneAtTheirNodeAndGradientsMatchDifferences) {
   EXPECT_LT(
       (g.col(1) - (shape_functions(0.3, 0.2 + h) - shape_functions(0.3, 0.2 - h)) / (2 * h)).norm(),
       1e-11);
+}
+
+TEST(Sensors, OfAPositionSaysItsDistanceAndIsRefusedInAnotherUnit) {
+  const Mesh6 mesh = box({1, 1, 1}, 1);
+  const RowMatrix rows = RowMatrix::Identity(mesh.nodes.size(), 2);
+  const rom::ReducedModel model = model_on(mesh, rows, 0.0);
+  const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
+  const rom::SkinRows T(rows);
+  ::testing::internal::CaptureStderr();
+  const auto sensors = find_sensors({{.name = "top", .position = Eigen::Vector3d(1.0, 1.0, 1.003)}},
+                                    model, T, geometry);
+  const std::string said = ::testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("sensor top: the nearest node of the skin, 3 mm from its position"),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(sensors.at(0).position.row(0), Eigen::RowVector3d(1, 1, 1));
+  test::expect_parts(test::refusal_of([&] {
+                       find_sensors({{.name = "top", .position = Eigen::Vector3d(0, 0, 1000)}},
+                                    model, T, geometry);
+                     }),
+                     {"sensor 'top': the nearest node of the skin lies ",
+                      "farther than the part is large, 1.73 m: positions are in metres"});
 }
 
 TEST(Skin, BoxHasItsAreaVolumeAndClosesExactly) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "assembly/recipe/temperature_table.hpp"
+#include "assembly/recipe/point_table.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 #include <numeric>
 #include <vector>
 
-#include "assembly/recipe/profile.hpp"
 #include "core/base/text_lines.hpp"
 #include "core/base/threads.hpp"
 
@@ -27,7 +26,7 @@ using Neighbours = std::vector<Eigen::Index>;
 /// Points of the table by their distance from a node.
 class ByDistance {
  public:
-  ByDistance(const TemperatureTable& table, const Eigen::RowVector3d& x)
+  ByDistance(const PointTable& table, const Eigen::RowVector3d& x)
       : distance_((table.points.rowwise() - x).rowwise().squaredNorm()),
         all_(static_cast<size_t>(table.points.rows())) {
     std::iota(all_.begin(), all_.end(), 0);
@@ -61,7 +60,7 @@ struct Support {
 
 /// The nearest points, more where the node lies farther across them than they reach, as off a plane
 /// that holds them all. A direction in which not even the entire table reaches is left out.
-Support support_at(const TemperatureTable& table, const Eigen::RowVector3d& x) {
+Support support_at(const PointTable& table, const Eigen::RowVector3d& x) {
   ByDistance order(table, x);
   for (Eigen::Index count = std::min(kNeighbours, order.count());;
        count = std::min(2 * count, order.count())) {
@@ -86,77 +85,89 @@ Support support_at(const TemperatureTable& table, const Eigen::RowVector3d& x) {
   }
 }
 
-struct Value {
-  double temperature, residual;
+struct Fitted {
+  Eigen::RowVectorXd values, residuals;
 };
 
-/// The value at `x` of the linear fit, and the weighted root mean square of what it leaves.
-Value fit_at(const TemperatureTable& table, const Support& support, const Eigen::RowVector3d& x) {
+/// The values at `x` of the linear fits, and the weighted root mean squares of what they leave.
+Fitted fit_at(const PointTable& table, const Support& support, const Eigen::RowVector3d& x) {
   const Neighbours& near = support.near;
   const double reach = (table.points.row(near.back()) - x).norm();
   if (!((table.points.row(near[0]) - x).norm() > kOnPoint * reach))
-    return {table.temperature(near[0]), 0.0};
+    return {table.values.row(near[0]), Eigen::RowVectorXd::Zero(table.values.cols())};
   const RowMatrix points = table.points(near, Eigen::all);
-  const Eigen::VectorXd values = table.temperature(near);
+  const Eigen::MatrixXd values = table.values(near, Eigen::all);
   Eigen::VectorXd weight = (points.rowwise() - x).rowwise().squaredNorm().cwiseInverse();
   weight /= weight.sum();
   // About the weighted mean the constant and the slopes separate.
   const Eigen::RowVector3d centre = weight.transpose() * points;
-  const double mean = weight.dot(values);
+  const Eigen::RowVectorXd mean = weight.transpose() * values;
   const Eigen::VectorXd root = weight.cwiseSqrt();
   const Eigen::MatrixXd A = root.asDiagonal() * (points.rowwise() - centre) * support.directions;
-  const Eigen::VectorXd b = root.cwiseProduct((values.array() - mean).matrix());
-  if (A.cols() == 0) return {mean, b.norm()};
+  const Eigen::MatrixXd b = root.asDiagonal() * (values.rowwise() - mean);
+  if (A.cols() == 0) return {mean, b.colwise().norm()};
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fit;
   fit.setThreshold(kFlat);
   fit.compute(A);
-  const Eigen::VectorXd slope = fit.solve(b);
-  return {mean + ((x - centre) * support.directions).dot(slope.transpose()),
-          (A * slope - b).norm()};
+  const Eigen::MatrixXd slope = fit.solve(b);
+  return {mean + (x - centre) * support.directions * slope, (A * slope - b).colwise().norm()};
+}
+
+void require_in_range(const TextLines& lines, const TableColumn& column, double value) {
+  if (value > column.least || (!column.above && value == column.least)) return;
+  lines.refuse(fmt::format("{:g} {}", value, column.unit),
+               fmt::format("{} {:g}", column.above ? "above" : "at least", column.least));
 }
 
 }  // namespace
 
-TemperatureTable read_temperature_table(const std::filesystem::path& path, double metre) {
-  constexpr std::string_view kHeader = "x,y,z,temperature_c";
+PointTable read_point_table(const std::filesystem::path& path, double metre,
+                            const std::vector<TableColumn>& columns) {
+  std::string header = "x,y,z";
+  for (const TableColumn& column : columns) header += "," + column.name;
+  const size_t width = 3 + columns.size();
   TextLines lines(path);
   std::string_view line;
   const bool any = lines.next(line);
-  if (!any || line != kHeader)
+  if (!any || line != header)
     lines.refuse(any ? fmt::format("\"{}\"", line.substr(0, 60)) : "an empty file",
-                 fmt::format("the header \"{}\"", kHeader));
-  std::vector<double> values;
+                 fmt::format("the header \"{}\"", header));
+  std::vector<double> numbers;
   while (lines.next(line)) {
     const std::vector<std::string_view> words = words_of(line);
     if (words.empty()) continue;
-    if (words.size() != 4) lines.refuse(fmt::format("{} numbers", words.size()), "4");
-    for (const std::string_view word : words) values.push_back(lines.real(word));
-    if (values.back() < -kZeroCelsius)
-      lines.refuse(fmt::format("{:g} degrees Celsius", values.back()),
-                   fmt::format("at least {:g}", -kZeroCelsius));
+    if (words.size() != width)
+      lines.refuse(fmt::format("{} numbers", words.size()), fmt::format("{}", width));
+    for (size_t k = 0; k < width; ++k) {
+      numbers.push_back(lines.real(words[k]));
+      if (k >= 3) require_in_range(lines, columns[k - 3], numbers.back());
+    }
   }
-  if (values.empty()) lines.refuse("no point", "at least one");
-  const Eigen::Map<const RowMatrix> all(values.data(), static_cast<Eigen::Index>(values.size() / 4),
-                                        4);
-  return {metre * all.leftCols(3), all.col(3).array() + kZeroCelsius};
+  if (numbers.empty()) lines.refuse("no point", "at least one");
+  const Eigen::Map<const RowMatrix> all(numbers.data(),
+                                        static_cast<Eigen::Index>(numbers.size() / width),
+                                        static_cast<Eigen::Index>(width));
+  return {metre * all.leftCols(3), all.rightCols(all.cols() - 3)};
 }
 
-TableValues temperatures_at(const TemperatureTable& table, const RowMatrix& nodes) {
-  TableValues out{Eigen::VectorXd(nodes.rows()), 0.0, 0.0};
-  Eigen::VectorXd distance(nodes.rows()), residual(nodes.rows());
+TableValues values_at(const PointTable& table, const RowMatrix& nodes) {
+  const Eigen::Index quantities = table.values.cols();
+  TableValues out{RowMatrix(nodes.rows(), quantities), 0.0, Eigen::RowVectorXd::Zero(quantities)};
+  Eigen::VectorXd distance(nodes.rows());
+  RowMatrix residuals(nodes.rows(), quantities);
   parallel_pieces(nodes.rows(), [&](int64_t begin, int64_t end) {
     for (Eigen::Index a = begin; a < end; ++a) {
       const Eigen::RowVector3d x = nodes.row(a);
       const Support support = support_at(table, x);
-      const Value value = fit_at(table, support, x);
-      out.temperature(a) = value.temperature;
-      residual(a) = value.residual;
+      const Fitted fitted = fit_at(table, support, x);
+      out.values.row(a) = fitted.values;
+      residuals.row(a) = fitted.residuals;
       distance(a) = (table.points.row(support.near[0]) - x).norm();
     }
   });
   if (nodes.rows() == 0) return out;
   out.farthest = distance.maxCoeff();
-  out.residual = residual.maxCoeff();
+  out.residuals = residuals.colwise().maxCoeff();
   return out;
 }
 
