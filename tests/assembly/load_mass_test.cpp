@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
@@ -11,6 +10,7 @@
 #include "block_mesh.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
+#include "core/dense/cholesky.hpp"
 #include "small_solver.hpp"
 #include "tests/refusal.hpp"
 
@@ -208,7 +208,7 @@ inertia = [1e6, 1e6, 1e6]
   StepClock clock;
   const fe::FeModel model = build_fe_model(mesh, read_recipe(config, mesh), clock).model;
   const Eigen::VectorXd f = Eigen::VectorXd::Unit(model.size(), model.set("top").dofs[2]);
-  const double compliance = f.dot(full(model.K).llt().solve(f));
+  const double compliance = f.dot(dense::Cholesky(full(model.K)).solve(f).col(0));
   EXPECT_NEAR(compliance / (0.4 / (1e6 * 0.02)), 1.0, 1e-10);
 }
 

@@ -2,10 +2,9 @@
 // Condensation with fixed-interface modes by multilevel substructuring.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "condense/condense.hpp"
 #include "core/base/log.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/sparse/eigen/eigen_solver.hpp"
 #include "tests/condense/solid_model.hpp"
 
@@ -46,9 +45,8 @@ rom::ReducedModel reduce(const CondenseOptions& options) {
 /// Elastic frequencies of a reduced model below a limit.
 VectorXd elastic_hz(const rom::ReducedModel& reduced, double limit_hz) {
   const VectorXd values =
-      Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(reduced.K_rr, reduced.M_rr)
-          .eigenvalues()
-          .tail(reduced.size() - kRigid);
+      dense::symmetric_eigen(reduced.K_rr, reduced.M_rr, dense::EigenParts::kValues)
+          .values.tail(reduced.size() - kRigid);
   const VectorXd hz = values.unaryExpr(&sparse::hz_of_value);
   return hz.head((hz.array() < limit_hz).count());
 }

@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "condense/condense.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
 #include "tests/condense/box_model.hpp"
 #include "tests/refusal.hpp"
@@ -21,8 +21,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 VectorXd free_spectrum(const MatrixXd& K, const MatrixXd& M) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(K, M, Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return dense::symmetric_eigen(K, M, dense::EigenParts::kValues).values;
 }
 
 CondenseOptions wanted(double hz, double error, const std::string& method = "craig-bampton") {

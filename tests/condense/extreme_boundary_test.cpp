@@ -3,9 +3,8 @@
 // interior; jumps of stiffness and of mass at the boundary.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "condense/condense.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
 #include "tests/condense/solid_model.hpp"
 #include "tests/observed.hpp"
@@ -33,10 +32,9 @@ rom::ReducedModel reduce(const fe::FeModel& model, std::vector<std::string> boun
   return condense(model, options, clock);
 }
 
-/// All eigenvalues, ascending, by Eigen alone.
+/// All eigenvalues, ascending, by a dense solver.
 VectorXd spectrum(const MatrixXd& K, const MatrixXd& M) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(K, M, Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return dense::symmetric_eigen(K, M, dense::EigenParts::kValues).values;
 }
 
 VectorXd spectrum(const fe::FeModel& model) {

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
@@ -14,6 +12,8 @@
 #include "condense/interface/film_work.hpp"
 #include "core/base/artefact.hpp"
 #include "core/base/log.hpp"
+#include "core/dense/solve.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/modes/analysis.hpp"
 #include "tests/condense/box_model.hpp"
 #include "tests/refusal.hpp"
@@ -66,9 +66,7 @@ rom::ReducedModel reduce(const fe::FeModel& model, std::vector<std::string> boun
 }
 
 VectorXd spectrum(const rom::ReducedModel& model) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(model.K_rr, model.M_rr,
-                                                            Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return dense::symmetric_eigen(model.K_rr, model.M_rr, dense::EigenParts::kValues).values;
 }
 
 TEST(InterfaceModes, AllOfThemGiveTheSameModelInOtherCoordinates) {
@@ -95,7 +93,8 @@ TEST(InterfaceModes, AllOfThemGiveTheSameModelInOtherCoordinates) {
         held.row(static_cast<Eigen::Index>(k)) = reduced.row_of(left[k]);
       const double stiff = 1e6 * reduced.K_rr.diagonal().maxCoeff();
       const MatrixXd K = reduced.K_rr + stiff * held.transpose() * held;
-      return VectorXd(rows * K.ldlt().solve(rows.transpose() * Eigen::Vector2d(1.0, -2.0)));
+      return VectorXd(rows *
+                      dense::solve_symmetric(K, rows.transpose() * Eigen::Vector2d(1.0, -2.0)));
     };
     // A held coordinate is a spring of 1e6 times the stiffness in both.
     EXPECT_LT((answer(whole) - answer(turned)).norm(), 1e-6 * answer(whole).norm());
@@ -204,11 +203,11 @@ double worst_missed_work(bool by_area) {
   const rom::ReducedModel small =
       reduce(model, {"left", "liner"}, InterfaceOptions{{"liner"}, 4, 0.0, by_area});
   const MatrixXd K = whole.K_rr.block(9, 9, 16, 16), Phi = small.combined.middleCols(9, 4);
-  const MatrixXd kept = Phi * MatrixXd(Phi.transpose() * K * Phi).ldlt().solve(Phi.transpose());
-  const MatrixXd missed = MatrixXd(K.inverse()) - kept;
+  const MatrixXd kept = Phi * dense::solve_symmetric(Phi.transpose() * K * Phi, Phi.transpose());
+  const MatrixXd missed = dense::solve_symmetric(K, MatrixXd::Identity(16, 16)) - kept;
   const VectorXd root = patch_areas(model.grids.at("liner")).cwiseSqrt();
   const MatrixXd weighted = root.asDiagonal() * missed * root.asDiagonal();
-  return weighted.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+  return dense::symmetric_eigen(weighted, dense::EigenParts::kValues).values.maxCoeff();
 }
 
 TEST(InterfaceModes, ByAreaMissTheLeastWorkOfAnyPressure) {

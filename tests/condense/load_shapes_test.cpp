@@ -2,12 +2,11 @@
 // Static responses to loads as basis vectors.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
-
 #include "condense/basis/shape_basis.hpp"
 #include "condense/condense.hpp"
 #include "core/base/log.hpp"
+#include "core/dense/least_squares.hpp"
+#include "core/dense/solve.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
 #include "tests/condense/box_model.hpp"
 #include "tests/condense/solid_model.hpp"
@@ -40,7 +39,7 @@ VectorXd static_answer(MatrixXd K, VectorXd f, const std::vector<int32_t>& held)
     K(dof, dof) = 1.0;
     f[dof] = 0.0;
   }
-  return K.ldlt().solve(f);
+  return dense::solve_symmetric(K, f);
 }
 
 /// Largest error of the reduced skin under a load while the set "left" is held, over the largest
@@ -101,14 +100,14 @@ TEST(LoadShapes, OfUniformHeatGiveTheFreeExpansion) {
                       "[[load]]\nname = \"heat\"\nkind = \"temperature\"\nvalue = 1.0\n");
   const rom::ReducedModel reduced = reduce(model, {"foot"}, {"heat"}, "craig-bampton");
   // Six rigid motions are left: the solution of least norm, from which their part is removed.
-  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(reduced.K_rr);
-  const VectorXd u = reduced.skin.T * solver.solve(reduced.loads.at("heat"));
+  const VectorXd u =
+      reduced.skin.T * dense::least_squares(reduced.K_rr, reduced.loads.at("heat")).X;
   VectorXd expected(u.size());
   for (Eigen::Index a = 0; a < reduced.skin.nodes.rows(); ++a)
     expected.segment<3>(3 * a) = 1.2e-5 * reduced.skin.nodes.row(a).transpose();
   const MatrixXd rigid = reduced.skin.T * reduced.rigid;
   const VectorXd rest = u - expected;
-  const VectorXd strain = rest - rigid * rigid.colPivHouseholderQr().solve(rest);
+  const VectorXd strain = rest - rigid * dense::least_squares(rigid, rest).X;
   EXPECT_LT(strain.norm(), 1e-8 * expected.norm());
 }
 

@@ -3,13 +3,13 @@
 // far too flat, copies of a part, permuted nodes, soft and stiff springs, a limit at an eigenvalue.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numeric>
 #include <random>
 
 #include "assembly/load/mass_properties.hpp"
 #include "core/base/error.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/mesh/boundary.hpp"
 #include "core/modes/analysis.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
@@ -40,13 +40,15 @@ sparse::ModeSet modes_of(const FeModel& model, int count,
   return modes::analyse(model, options).modes;
 }
 
-/// Frequencies by Eigen's dense solver [Hz], rigid ones as rounding leaves them.
+/// Frequencies by a dense solver [Hz], rigid ones as rounding leaves them.
 VectorXd dense_hz(const FeModel& model) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(
-      sparse::dense_symmetric(model.K), sparse::dense_symmetric(model.M), Eigen::EigenvaluesOnly);
-  VectorXd hz(solver.eigenvalues().size());
+  const VectorXd values =
+      dense::symmetric_eigen(sparse::dense_symmetric(model.K), sparse::dense_symmetric(model.M),
+                             dense::EigenParts::kValues)
+          .values;
+  VectorXd hz(values.size());
   for (Eigen::Index j = 0; j < hz.size(); ++j)
-    hz[j] = sparse::hz_of_value(std::max(solver.eigenvalues()[j], 0.0));
+    hz[j] = sparse::hz_of_value(std::max(values[j], 0.0));
   return hz;
 }
 

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
+#include "core/dense/complex.hpp"
 #include "dynamics/run/energy.hpp"
 #include "dynamics/shaft/disc_gyroscope.hpp"
 #include "dynamics/shaft/shaft_beam.hpp"
@@ -151,7 +151,7 @@ TEST(ShaftMotion, AnOverhungDiscWhirlsForwardAndBackwardAsInClosedForm) {
     for (int i = 0; i < 4; ++i) companion(i, 3) = -c[i] / c[4];
     for (int i = 0; i < 3; ++i) companion(i + 1, i) = 1.0;
     std::vector<double> exact;
-    for (const std::complex<double>& root : companion.eigenvalues())
+    for (const std::complex<double>& root : dense::eigenvalues(companion))
       exact.push_back(std::abs(root.real()));
     std::sort(exact.begin(), exact.end());
     // Torsion and stretch are left out of the closed form.
