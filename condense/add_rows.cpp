@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
 
 #include "core/base/error.hpp"
+#include "core/dense/svd.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -87,8 +87,8 @@ MatrixXd turn(const Evidence& known, const rom::ReducedModel& stored) {
     const Index m = end - first;
     const MatrixXd cross =
         known.fresh.middleCols(first, m).transpose() * known.stored.middleCols(first, m);
-    const Eigen::JacobiSVD<MatrixXd> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Q.block(first, first, m, m) = svd.matrixU() * svd.matrixV().transpose();
+    const dense::Svd svd = dense::svd(cross);
+    Q.block(first, first, m, m) = svd.U * svd.V.transpose();
   }
   return Q;
 }

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/dense/least_squares.hpp"
 
 namespace clatter::modal {
 namespace {
@@ -56,8 +56,7 @@ Eigen::Vector4d rigid_of(const Shape& shape, const Eigen::MatrixXd& deviation) {
       A(k, 4 + i) = 1.0;
       b(k++) = deviation(i, j);
     }
-  Eigen::Vector4d found =
-      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(A).solve(b).head<4>();
+  Eigen::Vector4d found = dense::least_squares(A, b).X.topRows<4>();
   found.tail<2>() /= size;
   found.head<2>() -= middle * found.tail<2>();
   return found;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
@@ -13,6 +12,7 @@
 #include "assembly/constraint/coupling_members.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -159,9 +159,9 @@ int still_motions(const Eigen::MatrixXd& gram) {
     if (gram(d, d) > 0.0) moving.push_back(d);
   if (moving.empty()) return 0;
   const Eigen::VectorXd scale = gram.diagonal()(moving).cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      scale.asDiagonal() * gram(moving, moving) * scale.asDiagonal(), Eigen::EigenvaluesOnly);
-  return static_cast<int>((eigen.eigenvalues().array() <= kStill).count());
+  const dense::Eigenpairs eigen = dense::symmetric_eigen(
+      scale.asDiagonal() * gram(moving, moving) * scale.asDiagonal(), dense::EigenParts::kValues);
+  return static_cast<int>((eigen.values.array() <= kStill).count());
 }
 
 std::string axis_text(const Eigen::Vector3d& axis) {
@@ -198,14 +198,14 @@ void omit_still_rotations(const Reference& reference, const Matrix6& gram, const
   const Eigen::Matrix3d rotations = gram.bottomRightCorner<3, 3>();
   const int still = still_motions(rotations);
   if (still == 0 || still != still_motions(gram)) return;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(rotations);
+  const Eigen::Matrix3d axes = dense::symmetric_eigen(rotations).vectors;
   for (int k = 0; k < still; ++k) {
-    const Eigen::Vector3d axis = eigen.eigenvectors().col(k);
+    const Eigen::Vector3d axis = axes.col(k);
     if (!all([&](int32_t id) { return !flags.massive[static_cast<size_t>(id)]; }))
       refuse_mass(reference, axis_text(axis));
     say(fmt::format("{}: {} omitted: nothing is attached", reference.name, axis_text(axis)));
   }
-  replace_rotations(reference, eigen.eigenvectors().rightCols(3 - still), eliminator, motions);
+  replace_rotations(reference, axes.rightCols(3 - still), eliminator, motions);
 }
 
 }  // namespace

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numeric>
 
 #include "assembly/coupling/dof_numbers.hpp"
 #include "assembly/coupling/member_group.hpp"
 #include "core/base/error.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -55,15 +55,16 @@ Matrix6 inverse_on_range(const Matrix6& A, const Extent& extent, const Matrix6& 
   Eigen::Matrix<double, 6, 1> scale;
   scale << 1.0, 1.0, 1.0, Eigen::Vector3d::Constant(1.0 / extent.radius);
   scale /= std::sqrt(extent.weight);
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scale.asDiagonal() * A * scale.asDiagonal());
+  const dense::Eigenpairs eigen =
+      dense::symmetric_eigen(scale.asDiagonal() * A * scale.asDiagonal());
+  const Matrix6 vectors = eigen.vectors;
   Eigen::Matrix<double, 6, 1> inverse = Eigen::Matrix<double, 6, 1>::Zero();
   for (int k = 0; k < 6; ++k) {
-    if (eigen.eigenvalues()(k) > kUndefined * eigen.eigenvalues()(5)) {
-      inverse(k) = 1.0 / eigen.eigenvalues()(k);
+    if (eigen.values(k) > kUndefined * eigen.values(5)) {
+      inverse(k) = 1.0 / eigen.values(k);
       continue;
     }
-    const Eigen::Matrix<double, 6, 1> loose =
-        shift * (scale.asDiagonal() * eigen.eigenvectors().col(k)).eval();
+    const Eigen::Matrix<double, 6, 1> loose = shift * (scale.asDiagonal() * vectors.col(k)).eval();
     for (const int d : directions)
       if (std::abs(loose(d)) > kTakesPart * scale(d))
         throw InputError(fmt::format(
@@ -71,8 +72,8 @@ Matrix6 inverse_on_range(const Matrix6& A, const Extent& extent, const Matrix6& 
             "expected a face with area or nodes that define it",
             where, kDofNames[static_cast<size_t>(d)]));
   }
-  return scale.asDiagonal() * eigen.eigenvectors() * inverse.asDiagonal() *
-         eigen.eigenvectors().transpose() * scale.asDiagonal();
+  return scale.asDiagonal() * vectors * inverse.asDiagonal() * vectors.transpose() *
+         scale.asDiagonal();
 }
 
 }  // namespace

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 
 #include "assembly/load/mass_properties.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
+#include "core/dense/svd.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -44,9 +44,7 @@ double rigid_force(const fe::FeModel& model, const Eigen::MatrixXd& motions) {
 /// Rigid motions (columns) that no equation constrains.
 Eigen::MatrixXd free_motions(const Eigen::MatrixXd& grounded) {
   if (grounded.rows() == 0) return Eigen::MatrixXd::Identity(6, 6);
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(grounded);
-  if (lu.dimensionOfKernel() == 0) return Eigen::MatrixXd(6, 0);
-  return lu.kernel();
+  return dense::null_space(grounded);
 }
 
 void require_below(const std::string& name, const char* what, double found, double limit) {

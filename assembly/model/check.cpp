@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "assembly/load/point_mass.hpp"
 #include "core/base/error.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -33,9 +33,9 @@ void check_references(const std::string& name, const std::map<std::string, rom::
         block(a, b) = block(b, a) = M.coeff(std::max(i, j), std::min(i, j));
       }
     const Eigen::VectorXd scale = block.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        scale.asDiagonal() * block * scale.asDiagonal(), Eigen::EigenvaluesOnly);
-    if (!(eigen.eigenvalues()(0) > kNoMass))
+    const dense::Eigenpairs eigen = dense::symmetric_eigen(
+        scale.asDiagonal() * block * scale.asDiagonal(), dense::EigenParts::kValues);
+    if (!(eigen.values(0) > kNoMass))
       throw InputError(fmt::format(
           "{}: found a motion of {} that moves nothing (the coupled nodes lie on a line or at "
           "a point), expected supports for its rotations or a wider coupling",

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -12,6 +10,8 @@
 
 #include "core/base/text_lines.hpp"
 #include "core/base/threads.hpp"
+#include "core/dense/least_squares.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -68,11 +68,11 @@ Support support_at(const PointTable& table, const Eigen::RowVector3d& x) {
     const RowMatrix points = table.points(found.near, Eigen::all);
     const Eigen::RowVector3d centre = points.colwise().mean();
     const RowMatrix from_centre = points.rowwise() - centre;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(from_centre.transpose() *
-                                                              from_centre);
+    const Eigen::Matrix3d axes =
+        dense::symmetric_eigen(from_centre.transpose() * from_centre).vectors;
     bool more = false;
     for (int axis = 0; axis < 3; ++axis) {
-      const Eigen::Vector3d direction = axes.eigenvectors().col(axis);
+      const Eigen::Vector3d direction = axes.col(axis);
       const double needed = std::abs((x - centre) * direction) / kBeyond;
       if (needed <= reach_along(points, centre, direction)) {
         found.directions.conservativeResize(3, found.directions.cols() + 1);
@@ -106,10 +106,7 @@ Fitted fit_at(const PointTable& table, const Support& support, const Eigen::RowV
   const Eigen::MatrixXd A = root.asDiagonal() * (points.rowwise() - centre) * support.directions;
   const Eigen::MatrixXd b = root.asDiagonal() * (values.rowwise() - mean);
   if (A.cols() == 0) return {mean, b.colwise().norm()};
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fit;
-  fit.setThreshold(kFlat);
-  fit.compute(A);
-  const Eigen::MatrixXd slope = fit.solve(b);
+  const Eigen::MatrixXd slope = dense::least_squares(A, b, kFlat).X;
   return {mean + (x - centre) * support.directions * slope, (A * slope - b).colwise().norm()};
 }
 

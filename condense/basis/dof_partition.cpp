@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <numeric>
 
 #include "core/base/error.hpp"
+#include "core/dense/svd.hpp"
 #include "core/fe/dof_label.hpp"
 
 namespace clatter::condense {
@@ -91,13 +91,13 @@ void check_boundary_holds(const fe::FeModel& model, const DofPartition& partitio
                           const fe::FreeMotions& free) {
   if (free.count() == 0) return;
   const Eigen::MatrixXd held = free.q(partition.boundary, Eigen::all);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(held, Eigen::ComputeFullV);
-  const Eigen::VectorXd& strength = svd.singularValues();
-  const double limit = 1e-6 * strength.maxCoeff();
+  const dense::Svd svd = dense::svd(held);
+  const Eigen::VectorXd& strength = svd.values;
+  const double limit = strength.size() > 0 ? 1e-6 * strength[0] : 0.0;
   Eigen::Index rank = 0;
   while (rank < strength.size() && strength[rank] > limit && strength[rank] > 0.0) ++rank;
   if (rank == free.count()) return;
-  const Eigen::VectorXd combination = svd.matrixV().col(free.count() - 1);
+  const Eigen::VectorXd combination = svd.V.col(free.count() - 1);
   const Eigen::VectorXd motion = free.unit * combination;
   Eigen::Index most = 0;
   (free.q * combination).cwiseAbs().maxCoeff(&most);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "condense/basis/residual_modes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/sparse/dense_product.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
 #include "core/sparse/eigen/eigen_solver.hpp"
@@ -131,21 +131,20 @@ void Correction::improve(const std::vector<Index>& chosen) {
   // diagonal, as fixed-interface modes are.
   MatrixXd gram = team_.sum(sparse::transposed_product(vectors, *K_ii_ * vectors));
   const VectorXd unit = gram.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(unit.asDiagonal() * gram * unit.asDiagonal());
-  const Index rank = (eig.eigenvalues().array() > 1e-10).count();
-  const MatrixXd to_unit = unit.asDiagonal() * eig.eigenvectors().rightCols(rank) *
-                           eig.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
+  const dense::Eigenpairs eig =
+      dense::symmetric_eigen(unit.asDiagonal() * gram * unit.asDiagonal());
+  const Index rank = (eig.values.array() > 1e-10).count();
+  const MatrixXd to_unit = unit.asDiagonal() * eig.vectors.rightCols(rank) *
+                           eig.values.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
   MatrixXd basis = MatrixXd::Zero(vectors.rows(), rank);
   sparse::add_product(1.0, vectors, to_unit, basis);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> nu(
-      team_.sum(sparse::transposed_product(basis, *M_ii_ * basis)));
+  const dense::Eigenpairs nu =
+      dense::symmetric_eigen(team_.sum(sparse::transposed_product(basis, *M_ii_ * basis)));
   const MatrixXd to_modes =
-      (nu.eigenvectors() * nu.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal())
-          .rowwise()
-          .reverse();
+      (nu.vectors * nu.values.cwiseSqrt().cwiseInverse().asDiagonal()).rowwise().reverse();
   X_ = MatrixXd::Zero(vectors.rows(), rank);
   sparse::add_product(1.0, basis, to_modes, X_);
-  pseudo_values_ = nu.eigenvalues().cwiseInverse().reverse();
+  pseudo_values_ = nu.values.cwiseInverse().reverse();
   border();
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "condense/basis/shape_basis.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/sparse/dense_product.hpp"
 
 namespace clatter::condense {
@@ -91,10 +91,10 @@ ShapeBasis shape_basis(const MatrixXd& shapes, const MatrixXd& kept,
   }
   const MatrixXd columns = collector.columns();
   const MatrixXd K_cc = team.sum(sparse::transposed_product(columns, *stiffness * columns));
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(0.5 * (K_cc + K_cc.transpose()));
+  const dense::Eigenpairs eig = dense::symmetric_eigen(0.5 * (K_cc + K_cc.transpose()));
   out.vectors = MatrixXd::Zero(columns.rows(), columns.cols());
-  sparse::add_product(1.0, columns, eig.eigenvectors(), out.vectors);
-  out.values = eig.eigenvalues();
+  sparse::add_product(1.0, columns, eig.vectors, out.vectors);
+  out.values = eig.values;
   return out;
 }
 

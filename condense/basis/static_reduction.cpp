@@ -4,7 +4,6 @@
 #include <cblas.h>
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <barrier>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "core/base/memory_limit.hpp"
 #include "core/base/progress.hpp"
 #include "core/base/threads.hpp"
+#include "core/dense/least_squares.hpp"
 #include "core/sparse/dense_product.hpp"
 #include "core/sparse/factor/buffer_pool.hpp"
 #include "core/sparse/factor/multifrontal.hpp"
@@ -301,7 +301,7 @@ void carry_rigid_motions(const sparse::Factor& factor_ii, const BoundaryBlocks& 
   const auto& [K, M, M_ii, team] = blocks;
   const MatrixXd &r_b = rigid.at_boundary, &r_i = rigid.inside;
   out.rigid_error = norm_of(r_i + factor_ii.solve(K.ib * r_b), team) / norm_of(r_i, team);
-  const MatrixXd P = r_b.completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd P = dense::pseudo_inverse(r_b);
   const MatrixXd left = r_i(kept, Eigen::all) - out.rows * r_b;
   out.rows += left * P;
 

@@ -3,14 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 
 #include "condense/basis/frame_inertia.hpp"
 #include "core/base/error.hpp"
+#include "core/dense/solve.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/rom/rigid_mass.hpp"
-#include "core/sparse/dense_eigen.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
 
 namespace clatter::condense {
@@ -27,8 +27,8 @@ Eigen::MatrixXd rigid_mass(const PartitionedModel& part, const Eigen::Vector3d& 
 
 double scaled_condition(const Eigen::MatrixXd& M_rr) {
   const Eigen::VectorXd scale = M_rr.diagonal().cwiseSqrt().cwiseInverse();
-  const sparse::DenseEigen eig = sparse::symmetric_eigen(
-      scale.asDiagonal() * M_rr * scale.asDiagonal(), sparse::EigenParts::kValues);
+  const dense::Eigenpairs eig = dense::symmetric_eigen(
+      scale.asDiagonal() * M_rr * scale.asDiagonal(), dense::EigenParts::kValues);
   return eig.ok ? eig.values.maxCoeff() / eig.values.minCoeff()
                 : std::numeric_limits<double>::infinity();
 }
@@ -40,8 +40,8 @@ void certify_spectrum(rom::ReducedModel& reduced, const Eigen::MatrixXd& motions
   const sparse::EigenResult low =
       sparse::solve_dense(reduced.K_rr, reduced.M_rr, motions, std::nullopt);
   if (!low.ok()) throw NumericsError("reduced model: " + low.message);
-  const sparse::DenseEigen all =
-      sparse::symmetric_eigen(reduced.K_rr, reduced.M_rr, sparse::EigenParts::kValues);
+  const dense::Eigenpairs all =
+      dense::symmetric_eigen(reduced.K_rr, reduced.M_rr, dense::EigenParts::kValues);
   if (!all.ok) throw NumericsError("reduced model: M_rr is not positive definite");
   const double highest = all.values.maxCoeff();
   const Eigen::Index zeros = (low.values.array() <= kRounding * highest).count();
@@ -99,7 +99,7 @@ double clear_rigid_stiffness(rom::ReducedModel& reduced, const Eigen::MatrixXd& 
   const Eigen::MatrixXd unit = r.colwise().normalized();  // metres and radians have equal weight
   const double residue = (reduced.K_rr * unit).colwise().norm().maxCoeff() / reduced.K_rr.norm();
   const Eigen::MatrixXd Mr = reduced.M_rr * unit;
-  const Eigen::MatrixXd to_rigid = (unit.transpose() * Mr).ldlt().solve(Mr.transpose());
+  const Eigen::MatrixXd to_rigid = dense::solve_symmetric(unit.transpose() * Mr, Mr.transpose());
   const Eigen::MatrixXd right = reduced.K_rr - (reduced.K_rr * unit) * to_rigid;
   const Eigen::MatrixXd both = right - to_rigid.transpose() * (unit.transpose() * right);
   reduced.K_rr = 0.5 * (both + both.transpose());

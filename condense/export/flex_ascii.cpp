@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 
@@ -14,6 +12,8 @@
 #include "core/base/error.hpp"
 #include "core/base/named.hpp"
 #include "core/base/whole_file.hpp"
+#include "core/dense/cholesky.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -64,14 +64,13 @@ MatrixXd craig_bampton_of(const rom::ReducedModel& model, const std::array<Index
   for (Index d = 0; d < 6; ++d) W(six[static_cast<size_t>(d)], d) = 1.0;
   if (n == 0) return W;
   const MatrixXd K_ii = model.K_rr(rest, rest), M_ii = model.M_rr(rest, rest);
-  const Eigen::LLT<MatrixXd> factor(K_ii);
-  if (factor.info() != Eigen::Success)
+  const dense::Cholesky factor(K_ii);
+  if (!factor.ok())
     throw InputError(fmt::format(
         "{}: found a part that moves freely with its interface held, expected one that it holds",
         model.name));
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes(K_ii, M_ii);
-  W(rest, Eigen::seqN(0, 6)) = -factor.solve(MatrixXd(model.K_rr(rest, six)));
-  W(rest, Eigen::seqN(6, n)) = modes.eigenvectors();
+  W(rest, Eigen::seqN(0, 6)) = -factor.solve(model.K_rr(rest, six));
+  W(rest, Eigen::seqN(6, n)) = dense::symmetric_eigen(K_ii, M_ii).vectors;
   return W;
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "condense/interface/film_work.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/dense/cholesky.hpp"
+#include "core/dense/solve.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -74,14 +75,14 @@ VectorXd static_work(const MatrixXd& K, const MatrixXd& M, const MatrixXd& rigid
   if (rigid.cols() > 0) {
     const MatrixXd inertia = M * rigid;
     const MatrixXd mass = rigid.transpose() * inertia;
-    const MatrixXd per_mass = mass.ldlt().solve(MatrixXd(inertia.transpose()));
-    balanced -= inertia * mass.ldlt().solve(MatrixXd(rigid.transpose() * forces));
+    const MatrixXd per_mass = dense::solve_symmetric(mass, inertia.transpose());
+    balanced -= inertia * dense::solve_symmetric(mass, rigid.transpose() * forces);
     held += K.trace() / M.trace() * inertia * per_mass;
   }
   // Metres and radians have equal weight.
   const VectorXd scale = held.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<MatrixXd> factor(scale.asDiagonal() * held * scale.asDiagonal());
-  if (factor.info() != Eigen::Success)
+  const dense::Cholesky factor(scale.asDiagonal() * held * scale.asDiagonal());
+  if (!factor.ok())
     throw NumericsError(
         "film work: the stiffness is not positive definite apart from its free motions");
   const MatrixXd scaled = scale.asDiagonal() * balanced;

@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
 #include <algorithm>
 
 #include "condense/interface/film_work.hpp"
 #include "core/base/error.hpp"
+#include "core/dense/least_squares.hpp"
+#include "core/dense/solve.hpp"
+#include "core/dense/svd.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
 #include "core/sparse/eigen/eigen_solver.hpp"
 
@@ -41,7 +42,7 @@ void check_holds(const rom::ReducedModel& model, const MatrixXd& rigid_R, double
   MatrixXd scaled = rigid_R;  // columns of unit size; zero for a motion that moves no coordinate
   for (Index j = 0; j < scaled.cols(); ++j)
     scaled.col(j) /= std::max(scaled.col(j).norm(), 1e-9 * std::max(1.0, length));
-  const VectorXd singular = Eigen::JacobiSVD<MatrixXd>(scaled).singularValues();
+  const VectorXd singular = dense::singular_values(scaled);
   const auto rank = (singular.array() > 1e-6 * singular[0]).count();
   if (rank == rigid_R.cols()) return;
   throw InputError(
@@ -140,7 +141,7 @@ MatrixXd carried(const rom::ReducedModel& model, const Split& split, const Matri
   MatrixXd out = MatrixXd::Zero(W.cols(), motions.cols());
   out.topRows(n_R) = motions_R;
   out.middleRows(n_R, p) =
-      (Phi_S.transpose() * M_Phi).ldlt().solve(MatrixXd(M_Phi.transpose() * rest));
+      dense::solve_symmetric(Phi_S.transpose() * M_Phi, M_Phi.transpose() * rest);
   return out;
 }
 
@@ -241,11 +242,9 @@ ReducedInterface reduce_interface(const rom::ReducedModel& model, const Interfac
       interface_shapes(K_SS, M_SS, N, all_of_it ? rigid_S : MatrixXd(K_SS.rows(), 0), options);
   MatrixXd Psi_SR(K_SS.rows(), static_cast<Index>(split.stay.size()));
   if (!all_of_it) {
-    Psi_SR = -K_SS.ldlt().solve(MatrixXd(model.K_rr(split.become, split.stay)));
+    Psi_SR = -dense::solve_symmetric(K_SS, model.K_rr(split.become, split.stay));
     // The smallest change with which the shapes represent the rigid motions exactly.
-    if (rigid_R.cols() > 0)
-      Psi_SR +=
-          (rigid_S - Psi_SR * rigid_R) * rigid_R.completeOrthogonalDecomposition().pseudoInverse();
+    if (rigid_R.cols() > 0) Psi_SR += (rigid_S - Psi_SR * rigid_R) * dense::pseudo_inverse(rigid_R);
   }
   const MatrixXd W = transformation(model, split, Psi_SR, shapes.Phi);
   rom::ReducedModel reduced = transformed(model, split, W);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fe/cell_points.hpp"
 
-#include <Eigen/QR>
 #include <array>
 
+#include "core/dense/least_squares.hpp"
 #include "core/mesh/quadrature.hpp"
 
 namespace clatter::fe {
@@ -122,7 +122,7 @@ Eigen::MatrixXd fit_corners(CellType type) {
   Eigen::MatrixXd N(n, corners);
   for (Eigen::Index q = 0; q < n; ++q)
     N.row(q) = mesh::cell_shape(linear_cell(type), rule.points.row(q)).value.transpose();
-  return N.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(n, n));
+  return dense::pseudo_inverse(N);
 }
 
 /// Tables of all cell types.

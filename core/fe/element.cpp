@@ -57,13 +57,18 @@ Eigen::VectorXd integrate_thermal(const CellModes& modes, const CellNodes& x,
   return force;
 }
 
+/// A^-1 B of a small positive definite A, for each cell of a mesh: Eigen's, whose calls cost least.
+Eigen::MatrixXd solve_small(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+  return A.llt().solve(B);
+}
+
 /// Condenses the incompatible modes: K_uu - K_ua K_aa^-1 K_au.
 Eigen::MatrixXd without_modes(const Eigen::MatrixXd& extended) {
   constexpr int kInner = 3 * kIncompatibleModes;
   const Eigen::Index n = extended.rows() - kInner;
   const Eigen::MatrixXd aa = extended.bottomRightCorner(kInner, kInner);
   const Eigen::MatrixXd au = extended.bottomLeftCorner(kInner, n);
-  return extended.topLeftCorner(n, n) - au.transpose() * aa.llt().solve(au);
+  return extended.topLeftCorner(n, n) - au.transpose() * solve_small(aa, au);
 }
 
 /// int N_a N_b over the reference tetrahedron, by its mass quadrature.
@@ -142,7 +147,7 @@ Eigen::VectorXd thermal_force(CellType type, const CellNodes& x, const Material&
   const Eigen::Index n = 3 * x.rows(), inner = 3 * modes.inner();
   return force.head(n) -
          extended.topRightCorner(n, inner) *
-             extended.bottomRightCorner(inner, inner).llt().solve(force.tail(inner));
+             solve_small(extended.bottomRightCorner(inner, inner), force.tail(inner));
 }
 
 Eigen::VectorXd with_inner_modes(CellType type, const CellNodes& x, const Material& material,
@@ -157,7 +162,7 @@ Eigen::VectorXd with_inner_modes(CellType type, const CellNodes& x, const Materi
   Eigen::VectorXd force = -(K.bottomLeftCorner(inner, n) * u);
   if (dT.size() > 0) force += integrate_thermal(modes, x, material, points, dT).tail(inner);
   Eigen::VectorXd all(n + inner);
-  all << u, K.bottomRightCorner(inner, inner).llt().solve(force);
+  all << u, solve_small(K.bottomRightCorner(inner, inner), force);
   return all;
 }
 

@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "core/dense/qr.hpp"
+#include "core/dense/svd.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 
 namespace clatter::fe {
 namespace {
@@ -30,11 +31,11 @@ void join_entries(const SparseMatrix& lower, DofUnion& sets) {
 MatrixXd moving_combinations(const MatrixXd& mass) {
   const VectorXd scale =
       mass.diagonal().unaryExpr([](double m) { return m > 0.0 ? 1.0 / std::sqrt(m) : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(scale.asDiagonal() * mass *
-                                                     scale.asDiagonal());
-  const Index moving = (gram.eigenvalues().array() > 1e-12).count();
-  return scale.asDiagonal() * gram.eigenvectors().rightCols(moving) *
-         gram.eigenvalues().tail(moving).cwiseSqrt().cwiseInverse().asDiagonal();
+  const dense::Eigenpairs gram =
+      dense::symmetric_eigen(scale.asDiagonal() * mass * scale.asDiagonal());
+  const Index moving = (gram.values.array() > 1e-12).count();
+  return scale.asDiagonal() * gram.vectors.rightCols(moving) *
+         gram.values.tail(moving).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
 /// Combinations (p x m) of motions that need no force; row i of `force` (rows x p) is relative to
@@ -43,11 +44,7 @@ MatrixXd forceless(const MatrixXd& force) {
   // By QR and SVD, not by F^T F, whose rounding would hide weak supports.
   const Index p = force.cols();
   if (p == 0) return MatrixXd(0, 0);
-  MatrixXd R = MatrixXd::Zero(p, p);
-  const Eigen::HouseholderQR<MatrixXd> qr(force);
-  const Index rows = std::min(force.rows(), p);
-  R.topRows(rows) = qr.matrixQR().topRows(rows).triangularView<Eigen::Upper>();
-  const MatrixXd V = Eigen::JacobiSVD<MatrixXd>(R, Eigen::ComputeFullV).matrixV();
+  const MatrixXd V = dense::svd(dense::qr(force).R).V;
   const Eigen::RowVectorXd most = (force * V).cwiseAbs().colwise().maxCoeff();
   std::vector<Index> free;
   for (Index c = 0; c < p; ++c)

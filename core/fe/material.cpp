@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <vector>
+
+#include "core/dense/cholesky.hpp"
 
 namespace clatter::fe {
 namespace {
@@ -70,10 +70,11 @@ Elasticity orthotropic(const Config& table, const std::vector<double>& E) {
   compliance(3, 3) = 1.0 / G[0];
   compliance(5, 5) = 1.0 / G[1];  // 13
   compliance(4, 4) = 1.0 / G[2];  // 23
-  if (compliance.llt().info() != Eigen::Success)
+  const dense::Cholesky factor(compliance);
+  if (!factor.ok())
     table.fail("nu",
                "found constants without positive elastic energy, expected e.g. nu12^2 < E1/E2");
-  return compliance.inverse();
+  return factor.solve(Elasticity::Identity());
 }
 
 Elasticity anisotropic(const Config& table) {
@@ -83,7 +84,7 @@ Elasticity anisotropic(const Config& table) {
   size_t at = 0;
   for (int i = 0; i < 6; ++i)
     for (int j = i; j < 6; ++j) C(i, j) = C(j, i) = upper[at++];
-  if (C.llt().info() != Eigen::Success)
+  if (!dense::Cholesky(C).ok())
     table.fail("C",
                "found a matrix that is not positive definite, expected a positive definite one");
   return C;

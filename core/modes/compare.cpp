@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
 
 #include "core/base/error.hpp"
+#include "core/dense/qr.hpp"
 #include "core/modes/analysis.hpp"
 
 namespace clatter::modes {
@@ -84,9 +84,7 @@ CommonRows common_rows(const fe::FeModel& full, const PartModes& full_modes,
 }
 
 double subspace_mac(const VectorXd& shape, const MatrixXd& basis) {
-  const Eigen::HouseholderQR<MatrixXd> qr(basis);
-  const MatrixXd Q = qr.householderQ() * MatrixXd::Identity(basis.rows(), basis.cols());
-  return (Q.transpose() * shape).squaredNorm() / shape.squaredNorm();
+  return (dense::qr(basis).Q.transpose() * shape).squaredNorm() / shape.squaredNorm();
 }
 
 /// |x^T y|^2 / (|x|^2 |y|^2) of the columns of both (Allemang and Brown 1982).

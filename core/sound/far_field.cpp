@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sound/far_field.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
 #include "core/base/threads.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/sound/complex_lu.hpp"
 #include "core/sound/facet.hpp"
 
@@ -19,11 +19,10 @@ constexpr double kPi = std::numbers::pi;
 Eigen::MatrixXd gauss_points(int n) {
   Eigen::VectorXd below(std::max(n - 1, 0));
   for (int i = 1; i < n; ++i) below[i - 1] = i / std::sqrt(4.0 * i * i - 1.0);
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
-  eigen.computeFromTridiagonal(Eigen::VectorXd::Zero(n), below);
+  const dense::Eigenpairs eigen = dense::tridiagonal_eigen(Eigen::VectorXd::Zero(n), below);
   Eigen::MatrixXd out(2, n);
-  out.row(0) = eigen.eigenvalues().transpose();
-  out.row(1) = 2.0 * eigen.eigenvectors().row(0).cwiseAbs2();
+  out.row(0) = eigen.values.transpose();
+  out.row(1) = 2.0 * eigen.vectors.row(0).cwiseAbs2();
   return out;
 }
 

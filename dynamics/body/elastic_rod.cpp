@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/dense/cholesky.hpp"
 
 namespace clatter::dynamics {
 
@@ -33,7 +33,7 @@ Matrix6 normal_motions(const Matrix6& mass) {
   Matrix6 order = Matrix6::Zero();
   for (int k = 0; k < 6; ++k) order(axes[k], k) = 1.0;
   const Matrix6 ordered = order.transpose() * mass * order;
-  return order * ordered.llt().matrixU().solve(Matrix6::Identity());
+  return order * Matrix6(dense::Cholesky(ordered).solve_upper(Matrix6::Identity()));
 }
 
 RodCoupling coupling_of(const ElasticRod& rod, const rom::InertiaInvariants& invariants) {

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <memory>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 
 namespace clatter::dynamics {
 
@@ -61,6 +61,8 @@ ModalBody with_modes(ModalBody body, const VectorXd& omega_squared, const Vector
 
 }  // namespace
 
+Matrix3X FloatingBody::shape(const Matrix3X& N) const { return (N - mean) * W; }
+
 FloatingBody make_floating_body(const std::string& name, const ElasticShapes& shapes,
                                 const ElasticStart& start) {
   FloatingBody floating;
@@ -68,12 +70,12 @@ FloatingBody make_floating_body(const std::string& name, const ElasticShapes& sh
   floating.mean = mean_of(shapes);
   const rom::InertiaInvariants about = centred(shapes);
   const MatrixXd M = about.product[0] + about.product[4] + about.product[8];
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes(shapes.stiffness, M);
-  if (modes.info() != Eigen::Success || !(modes.eigenvalues().minCoeff() > 0.0))
+  const dense::Eigenpairs modes = dense::symmetric_eigen(shapes.stiffness, M);
+  if (!modes.ok || !(modes.values.minCoeff() > 0.0))
     throw NumericsError(
         fmt::format("{}: stiffness and mass of its {} shapes: expected positive definite matrices",
                     name, M.rows()));
-  floating.W = modes.eigenvectors();
+  floating.W = modes.vectors;
   const rom::InertiaInvariants invariants = about.in(floating.W);
 
   const Eigen::Index n = M.rows();
@@ -81,15 +83,16 @@ FloatingBody make_floating_body(const std::string& name, const ElasticShapes& sh
   const VectorXd eta = floating.W.transpose() * (M * q), v = floating.W.transpose() * (M * rate);
   const auto frame = std::make_shared<SpatialFrame>(invariants, quaternion_of(start.frame.rotation),
                                                     start.frame.spin);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> inertia(frame->inertia(VectorXd::Zero(n)));
+  const VectorXd inertia =
+      dense::symmetric_eigen(frame->inertia(VectorXd::Zero(n)), dense::EigenParts::kValues).values;
   const Eigen::Matrix3d A = start.frame.rotation.normalized().toRotationMatrix();
   const Vector3d to_centre = shapes.centre + floating.mean * q;
   SpatialMotion motion = start.frame;
   motion.centre += A * to_centre;
   motion.velocity += A * (start.frame.spin.cross(to_centre) + floating.mean * rate);
-  floating.body = with_modes(
-      spatial_coordinates(name, shapes.mass, inertia.eigenvalues().minCoeff(), frame, motion),
-      modes.eigenvalues(), or_zero(shapes.damping, n));
+  floating.body =
+      with_modes(spatial_coordinates(name, shapes.mass, inertia.minCoeff(), frame, motion),
+                 modes.values, or_zero(shapes.damping, n));
   floating.body.eta_start.tail(n) = eta;
   floating.body.v_start.tail(n) = v;
   floating.body.eta_start.segment<3>(kMomentum) = A * frame->momentum(eta, v, start.frame.spin);

@@ -37,7 +37,7 @@ struct FloatingBody {
   /// From the centre of mass to a point of the frame, without deformation [m].
   Eigen::Vector3d arm(const Eigen::Vector3d& point) const { return point - centre; }
   /// Displacement from the centre of mass by the modes, of a point with shapes N, 3 x n.
-  Matrix3X shape(const Matrix3X& N) const { return (N - mean) * W; }
+  Matrix3X shape(const Matrix3X& N) const;
 };
 
 /// The equations of the body about its centre of mass, to which its shapes are referred exactly:

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <cmath>
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/dense/least_squares.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -36,9 +36,9 @@ MatrixXd free_motions(const MatrixXd& M, const MatrixXd& K, const MatrixXd& rigi
   if (rigid.cols() == 0) return MatrixXd(M.rows(), 0);
   const MatrixXd mass = rigid.transpose() * M * rigid;
   const MatrixXd stiffness = rigid.transpose() * K * rigid;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(stiffness, mass);
-  if (solver.info() != Eigen::Success) return MatrixXd(M.rows(), 0);
-  const MatrixXd candidates = rigid * solver.eigenvectors();
+  const dense::Eigenpairs solved = dense::symmetric_eigen(stiffness, mass);
+  if (!solved.ok) return MatrixXd(M.rows(), 0);
+  const MatrixXd candidates = rigid * solved.vectors;
   // A motion is free when K r is at rounding level; the certificate of the model requires 1e-10.
   constexpr double kFree = 1e-8;
   int count = 0;
@@ -61,8 +61,8 @@ Spectrum elastic_spectrum(const std::string& name, const MatrixXd& M, const Matr
   const double shift = K.trace() / M.trace();
   const MatrixXd Mr = M * free;
   const MatrixXd shifted = K - shift * Mr * Mr.transpose();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(shifted, M);
-  if (solver.info() != Eigen::Success) {
+  const dense::Eigenpairs solved = dense::symmetric_eigen(shifted, M);
+  if (!solved.ok) {
     throw NumericsError(
         fmt::format("{}: the eigenproblem of (K_rr, M_rr) failed, M_rr is probably "
                     "not positive definite",
@@ -71,8 +71,8 @@ Spectrum elastic_spectrum(const std::string& name, const MatrixXd& M, const Matr
   const auto n = M.rows(), k = free.cols();
   Spectrum result{MatrixXd(n, n), VectorXd::Zero(n)};
   result.shapes.leftCols(k) = free;
-  result.shapes.rightCols(n - k) = solver.eigenvectors().rightCols(n - k);
-  result.omega_squared.tail(n - k) = solver.eigenvalues().tail(n - k);
+  result.shapes.rightCols(n - k) = solved.vectors.rightCols(n - k);
+  result.omega_squared.tail(n - k) = solved.values.tail(n - k);
   result.shapes.rightCols(n - k) -= free * (Mr.transpose() * result.shapes.rightCols(n - k));
   if (n > k && !(result.omega_squared(k) > 0.0)) {
     throw NumericsError(
@@ -103,14 +103,14 @@ Wrench moved(const Wrench& wrench, const Eigen::Vector3d& point) {
 }
 
 VectorXd ModalBody::force_of(const Wrench& wrench) const {
-  const auto decomposition = rigid.transpose().completeOrthogonalDecomposition();
-  if (decomposition.rank() < 6) {
+  const dense::LeastSquares force = dense::least_squares(rigid.transpose(), wrench);
+  if (force.rank < 6) {
     throw NumericsError(
         fmt::format("{}: found {} independent rigid motions, expected 6 for a force on its rigid "
                     "frame",
-                    name, decomposition.rank()));
+                    name, force.rank));
   }
-  return decomposition.solve(wrench);
+  return force.X;
 }
 
 ModalBody make_modal_body(const rom::ReducedModel& model, const ModalBodyOptions& options) {

@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/dense/least_squares.hpp"
 #include "dynamics/film/gap.hpp"
 
 namespace clatter::film {
@@ -124,7 +124,7 @@ Eigen::MatrixXd rigid_fit(const ElasticSurface& surface) {
   const double turn = 1.0 / surface.grid.radius;
   const Eigen::DiagonalMatrix<double, kFits> scale(1.0, 1.0, turn, turn);
   const Eigen::MatrixXd scaled = radial_motions(surface) * scale;
-  return scale * scaled.completeOrthogonalDecomposition().pseudoInverse();
+  return scale * dense::pseudo_inverse(scaled);
 }
 
 PatchMap::PatchMap(const ElasticSurface& surface, const PadGrid& pad)

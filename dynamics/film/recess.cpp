@@ -9,7 +9,7 @@ namespace {
 
 // Less of a row than this is none, more than its complement all: the conductance beside the edge
 // stays finite.
-constexpr double kSliver = 1e-6;
+constexpr double kNarrow = 1e-6;
 
 }  // namespace
 
@@ -47,8 +47,8 @@ void RecessMap::at(double height, RecessCells& cells) const {
       } else {
         share = pad_.axial(j) > recess.bottom && pad_.axial(j) < recess.top ? 1.0 : 0.0;
       }
-      if (share < kSliver) continue;
-      if (share > 1.0 - kSliver) {
+      if (share < kNarrow) continue;
+      if (share > 1.0 - kNarrow) {
         share = 1.0;
         slope = 0.0;
       }

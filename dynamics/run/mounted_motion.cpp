@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/run/mounted_motion.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <map>
-#include <unsupported/Eigen/MatrixFunctions>
 
+#include "core/dense/exponential.hpp"
+#include "core/dense/solve.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "dynamics/force/massless_rod.hpp"
 #include "dynamics/force/mount.hpp"
 
@@ -53,10 +53,10 @@ MountedMotion::MountedMotion(const System& system, const Eigen::MatrixXd& motion
     stiffness += at.transpose() * mount->stiffness().asDiagonal() * at;
     damping += at.transpose() * mount->damping().asDiagonal() * at;
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
-  const Eigen::VectorXd& squares = solver.eigenvalues();
+  const dense::Eigenpairs solved = dense::symmetric_eigen(stiffness, mass);
+  const Eigen::VectorXd& squares = solved.values;
   const auto held = (squares.array() > kFree * kFree * squares(5)).count();
-  const Eigen::MatrixXd shapes = solver.eigenvectors().rightCols(squares(5) > 0.0 ? held : 0);
+  const Eigen::MatrixXd shapes = solved.vectors.rightCols(squares(5) > 0.0 ? held : 0);
   modes_ = motions * shapes;
   stiffness_ = shapes.transpose() * stiffness * shapes;
   damping_ = shapes.transpose() * damping * shapes;
@@ -83,10 +83,9 @@ double MountedMotion::predict(const StageState& begin, double cycle, StageState&
   rate.topRightCorner(h, h).setIdentity();
   rate.bottomLeftCorner(h, h) = -stiffness_;
   rate.bottomRightCorner(h, h) = -damping_;
-  const Eigen::MatrixXd map = Eigen::MatrixXd(cycle * rate).exp();
+  const Eigen::MatrixXd map = dense::exponential(cycle * rate);
   const Eigen::MatrixXd whole = Eigen::MatrixXd::Identity(2 * h, 2 * h) - map;
-  const Eigen::VectorXd step =
-      map * Eigen::PartialPivLU<Eigen::MatrixXd>(whole).solve(slow(end) - slow(begin));
+  const Eigen::VectorXd step = map * dense::solve(whole, slow(end) - slow(begin));
   end.eta += modes_ * step.head(h);
   end.v += modes_ * step.tail(h);
   return (origin_ * step.head(h)).norm();

@@ -13,8 +13,8 @@
 namespace clatter::dynamics {
 namespace {
 
-constexpr double kRpm = std::numbers::pi / 30.0;  // [rad/s]
-const Range kMoment = Range::between(-1e12, 1e12), kAngle = Range::between(-1e6, 1e6);
+constexpr double kPerRpm = std::numbers::pi / 30.0;  // [rad/s]
+const Range kTorque = Range::between(-1e12, 1e12), kTurn = Range::between(-1e6, 1e6);
 
 TorqueSpec read_torque(const Config& table, size_t number) {
   const Range loss = Range::between(0.0, 1e12);
@@ -22,21 +22,21 @@ TorqueSpec read_torque(const Config& table, size_t number) {
   spec.name = "torque " + (table.has("name") ? read_name(table) : fmt::format("{}", number));
   spec.bodies = read_turn_bodies(table);
   TorqueTable& law = spec.table;
-  law.constant = table.number_or("value_n_m", 0.0, kMoment);
+  law.constant = table.number_or("value_n_m", 0.0, kTorque);
   for (const Config& one : table.tables("order"))
     law.orders.push_back({one.number("order", Range::between(1e-6, 1e6)),
-                          one.number("amplitude_n_m", kMoment),
-                          one.number_or("phase_deg", 0.0, kAngle) * kDegree});
+                          one.number("amplitude_n_m", kTorque),
+                          one.number_or("phase_deg", 0.0, kTurn) * kDegree});
   if (table.has("table")) {
     spec.file = table.path("table");
     const double period = table.number_or("period_deg", 360.0, Range::between(1e-3, 1e6)) * kDegree;
     const int degree = table.choice("spline", {"cubic", "quintic"}) == "cubic" ? 3 : 5;
     law.table = read_angle_table(spec.file, table.text_or("column", ""), "N m", period, degree);
-    law.scale = table.number_or("scale", 1.0, kMoment);
+    law.scale = table.number_or("scale", 1.0, kTorque);
   }
-  law.zero = table.number_or("zero_deg", 0.0, kAngle) * kDegree;
+  law.zero = table.number_or("zero_deg", 0.0, kTurn) * kDegree;
   if (table.has("at_speed_rpm"))
-    law.speed = table.number("at_speed_rpm", Range::between(1e-6, 1e6)) * kRpm;
+    law.speed = table.number("at_speed_rpm", Range::between(1e-6, 1e6)) * kPerRpm;
   law.drag = table.number_or("drag_n_m", 0.0, loss);
   law.drag_speed = table.number_or("drag_speed_rad_s", law.drag_speed, Range::between(1e-9, 1e6));
   law.viscous = table.number_or("viscous_n_m_s", 0.0, loss);

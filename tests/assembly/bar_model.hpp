@@ -3,10 +3,10 @@
 // A bar to couple, hold and load, and dense solves of it.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <random>
 
 #include "block_mesh.hpp"
+#include "core/dense/cholesky.hpp"
 #include "saddle.hpp"
 #include "small_solver.hpp"
 
@@ -37,9 +37,9 @@ inline Eigen::VectorXd solve_model(const fe::FeModel& model, const Eigen::Vector
   Eigen::MatrixXd T(f.size(), n);
   T.topRows(nodal) = model.T;
   if (f.size() > nodal) T.bottomRows(f.size() - nodal) = model.points.T;
-  const Eigen::LLT<Eigen::MatrixXd> factor(full(model.K));
-  EXPECT_EQ(factor.info(), Eigen::Success);
-  EXPECT_EQ(full(model.M).llt().info(), Eigen::Success);
+  const dense::Cholesky factor(full(model.K));
+  EXPECT_TRUE(factor.ok());
+  EXPECT_TRUE(dense::Cholesky(full(model.M)).ok());
   return T * factor.solve(T.transpose() * f);
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "saddle.hpp"
 
-#include <Eigen/QR>
-
+#include "core/dense/least_squares.hpp"
 #include "core/fe/assemble.hpp"
 #include "small_solver.hpp"
 
@@ -43,7 +42,7 @@ Eigen::VectorXd Saddle::solve(const Eigen::VectorXd& f) const {
     b(n_ + r) = values_[static_cast<size_t>(r)];
   }
   // Unattached DoFs make A singular: the minimum norm solution is zero there, as without them.
-  return A.completeOrthogonalDecomposition().solve(b).head(n_);
+  return dense::least_squares(A, b).X.col(0).head(n_);
 }
 
 }  // namespace clatter::assembly::testing

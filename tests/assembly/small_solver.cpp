@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "small_solver.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <cmath>
 #include <numbers>
@@ -9,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/base/log.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 
 namespace clatter::assembly::testing {
 
@@ -62,9 +62,9 @@ Eigen::VectorXd lowest_hz(const SparseMatrix& K, const SparseMatrix& M, int coun
     X = factor.solve(multiply_symmetric(M, X));
     const Eigen::MatrixXd k = X.transpose() * multiply_symmetric(K, X);
     const Eigen::MatrixXd m = X.transpose() * multiply_symmetric(M, X);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(k, m);
-    X = X * ritz.eigenvectors();
-    lambda = ritz.eigenvalues().head(count);
+    const dense::Eigenpairs ritz = dense::symmetric_eigen(k, m);
+    X = X * ritz.vectors;
+    lambda = ritz.values.head(count);
     if ((lambda - last).cwiseAbs().maxCoeff() < 1e-12 * lambda.maxCoeff()) break;
     last = lambda;
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "two_parts.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
 #include "block_mesh.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "small_solver.hpp"
 
 namespace clatter::assembly::testing {
@@ -54,9 +54,9 @@ mesh::Mesh slab(mesh::CellType type, const std::array<int, 3>& n, double shake, 
 }
 
 Eigen::VectorXd free_hz(const fe::FeModel& model, int count) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      full(model.K), full(model.M), Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues().head(count).cwiseAbs().cwiseSqrt() / (2.0 * std::numbers::pi);
+  const dense::Eigenpairs eigen =
+      dense::symmetric_eigen(full(model.K), full(model.M), dense::EigenParts::kValues);
+  return eigen.values.head(count).cwiseAbs().cwiseSqrt() / (2.0 * std::numbers::pi);
 }
 
 }  // namespace clatter::assembly::testing

@@ -2,10 +2,9 @@
 // Condensation with fixed-interface modes by multilevel substructuring.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "condense/condense.hpp"
 #include "core/base/log.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/sparse/eigen/eigen_solver.hpp"
 #include "tests/condense/solid_model.hpp"
 
@@ -37,7 +36,7 @@ CondenseOptions by(EigenMethod method, int count, double fmax_hz = 0.0) {
   return options;
 }
 
-rom::ReducedModel reduce(const CondenseOptions& options) {
+rom::ReducedModel reduce_bar(const CondenseOptions& options) {
   set_quiet(true);
   StepClock clock;
   return condense(bar(), options, clock);
@@ -46,18 +45,17 @@ rom::ReducedModel reduce(const CondenseOptions& options) {
 /// Elastic frequencies of a reduced model below a limit.
 VectorXd elastic_hz(const rom::ReducedModel& reduced, double limit_hz) {
   const VectorXd values =
-      Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(reduced.K_rr, reduced.M_rr)
-          .eigenvalues()
-          .tail(reduced.size() - kRigid);
+      dense::symmetric_eigen(reduced.K_rr, reduced.M_rr, dense::EigenParts::kValues)
+          .values.tail(reduced.size() - kRigid);
   const VectorXd hz = values.unaryExpr(&sparse::hz_of_value);
   return hz.head((hz.array() < limit_hz).count());
 }
 
 TEST(CondenseByAmls, FrequenciesAreThoseOfBlockLanczosFromAbove) {
-  const rom::ReducedModel exact = reduce(by(EigenMethod::kBlockLanczos, 40));
+  const rom::ReducedModel exact = reduce_bar(by(EigenMethod::kBlockLanczos, 40));
   CondenseOptions options = by(EigenMethod::kAmls, 40);
   const double accuracy = options.modes.accuracy = 2e-3;
-  const rom::ReducedModel amls = reduce(options);
+  const rom::ReducedModel amls = reduce_bar(options);
   const auto& c = amls.certificate;
   ASSERT_TRUE(c.eigen_frequency_error.has_value());  // AMLS was used
   EXPECT_FALSE(exact.certificate.eigen_frequency_error.has_value());
@@ -84,10 +82,10 @@ TEST(CondenseByAmls, FrequenciesAreThoseOfBlockLanczosFromAbove) {
 }
 
 TEST(CondenseByAmls, ACutOffWithinTheErrorOfAFrequencyIsNotSaidToBeProved) {
-  const VectorXd exact = reduce(by(EigenMethod::kBlockLanczos, 40)).fixed_interface_hz;
+  const VectorXd exact = reduce_bar(by(EigenMethod::kBlockLanczos, 40)).fixed_interface_hz;
   CondenseOptions options = by(EigenMethod::kAmls, 40);
   options.modes.accuracy = 0.1;
-  const rom::ReducedModel counted = reduce(options);
+  const rom::ReducedModel counted = reduce_bar(options);
   EXPECT_LE(counted.certificate.cutoff_hz.value(), counted.fixed_interface_hz[39]);
   const VectorXd rough = counted.fixed_interface_hz;
   Index worst = 0;  // the mode with the largest error, separated from the next
@@ -96,7 +94,7 @@ TEST(CondenseByAmls, ACutOffWithinTheErrorOfAFrequencyIsNotSaidToBeProved) {
   ASSERT_GT(rough[worst] / exact[worst] - 1.0, 1e-7);
   options.modes.count = 0;
   options.modes.fmax_hz = exact[worst] + 0.02 * (rough[worst] - exact[worst]);
-  const rom::ReducedModel reduced = reduce(options);
+  const rom::ReducedModel reduced = reduce_bar(options);
   const auto& c = reduced.certificate;
   EXPECT_EQ(c.count_proved.value(), 0.0);
   EXPECT_EQ(c.count_below.value(), static_cast<double>(worst + 1));

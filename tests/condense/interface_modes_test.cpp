@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
@@ -14,6 +12,8 @@
 #include "condense/interface/film_work.hpp"
 #include "core/base/artefact.hpp"
 #include "core/base/log.hpp"
+#include "core/dense/solve.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/modes/analysis.hpp"
 #include "tests/condense/box_model.hpp"
 #include "tests/refusal.hpp"
@@ -53,8 +53,8 @@ fe::FeModel lined_box() {
   return model;
 }
 
-rom::ReducedModel reduce(const fe::FeModel& model, std::vector<std::string> boundary,
-                         std::optional<InterfaceOptions> interface) {
+rom::ReducedModel reduce_with_modes(const fe::FeModel& model, std::vector<std::string> boundary,
+                                    std::optional<InterfaceOptions> interface) {
   CondenseOptions options;
   options.boundary = std::move(boundary);
   options.modes.count = 20;
@@ -66,17 +66,16 @@ rom::ReducedModel reduce(const fe::FeModel& model, std::vector<std::string> boun
 }
 
 VectorXd spectrum(const rom::ReducedModel& model) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(model.K_rr, model.M_rr,
-                                                            Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return dense::symmetric_eigen(model.K_rr, model.M_rr, dense::EigenParts::kValues).values;
 }
 
 TEST(InterfaceModes, AllOfThemGiveTheSameModelInOtherCoordinates) {
   const auto model = lined_box();
-  const rom::ReducedModel whole = reduce(model, {"left", "liner"}, std::nullopt);
+  const rom::ReducedModel whole = reduce_with_modes(model, {"left", "liner"}, std::nullopt);
   for (const std::vector<std::string>& sets :
        {std::vector<std::string>{"liner"}, std::vector<std::string>{"left", "liner"}}) {
-    const rom::ReducedModel turned = reduce(model, {"left", "liner"}, InterfaceOptions{sets, 1000});
+    const rom::ReducedModel turned =
+        reduce_with_modes(model, {"left", "liner"}, InterfaceOptions{sets, 1000});
     ASSERT_EQ(turned.size(), whole.size());
     const VectorXd a = spectrum(whole).tail(whole.size() - 6);
     const VectorXd b = spectrum(turned).tail(whole.size() - 6);
@@ -95,7 +94,8 @@ TEST(InterfaceModes, AllOfThemGiveTheSameModelInOtherCoordinates) {
         held.row(static_cast<Eigen::Index>(k)) = reduced.row_of(left[k]);
       const double stiff = 1e6 * reduced.K_rr.diagonal().maxCoeff();
       const MatrixXd K = reduced.K_rr + stiff * held.transpose() * held;
-      return VectorXd(rows * K.ldlt().solve(rows.transpose() * Eigen::Vector2d(1.0, -2.0)));
+      return VectorXd(rows *
+                      dense::solve_symmetric(K, rows.transpose() * Eigen::Vector2d(1.0, -2.0)));
     };
     // A held coordinate is a spring of 1e6 times the stiffness in both.
     EXPECT_LT((answer(whole) - answer(turned)).norm(), 1e-6 * answer(whole).norm());
@@ -104,12 +104,12 @@ TEST(InterfaceModes, AllOfThemGiveTheSameModelInOtherCoordinates) {
 
 TEST(InterfaceModes, ErrorsFallWithTheirNumberAndFrequenciesComeFromAbove) {
   const auto model = lined_box();
-  const rom::ReducedModel whole = reduce(model, {"left", "liner"}, std::nullopt);
+  const rom::ReducedModel whole = reduce_with_modes(model, {"left", "liner"}, std::nullopt);
   const VectorXd exact = spectrum(whole);
   double last_frequency = 1.0, last_work = 1.0;
   for (const int count : {2, 6, 12}) {
     const rom::ReducedModel small =
-        reduce(model, {"left", "liner"}, InterfaceOptions{{"liner"}, count});
+        reduce_with_modes(model, {"left", "liner"}, InterfaceOptions{{"liner"}, count});
     EXPECT_EQ(small.size(), whole.size() - 16 + count);
     EXPECT_EQ(small.n_boundary, 9);
     const VectorXd found = spectrum(small);
@@ -128,7 +128,8 @@ TEST(InterfaceModes, KeepRigidMotionsMassInvariantsAndLoads) {
   const auto model = lined_box();
   for (const std::vector<std::string>& sets :
        {std::vector<std::string>{"liner"}, std::vector<std::string>{"left", "liner"}}) {
-    const rom::ReducedModel small = reduce(model, {"left", "liner"}, InterfaceOptions{sets, 5});
+    const rom::ReducedModel small =
+        reduce_with_modes(model, {"left", "liner"}, InterfaceOptions{sets, 5});
     EXPECT_EQ(small.certificate.rigid_modes.value(), 6.0);
     EXPECT_LT(small.certificate.mass_error.value(), 1e-11);
     EXPECT_LT(small.certificate.inertia_invariants_error.value(), 1e-10);
@@ -200,15 +201,15 @@ TEST(FilmWork, OfAPatchIsForceTimesItsDisplacement) {
 /// on the liner while the rest of the boundary is held.
 double worst_missed_work(bool by_area) {
   const auto model = lined_box();
-  const rom::ReducedModel whole = reduce(model, {"left", "liner"}, std::nullopt);
+  const rom::ReducedModel whole = reduce_with_modes(model, {"left", "liner"}, std::nullopt);
   const rom::ReducedModel small =
-      reduce(model, {"left", "liner"}, InterfaceOptions{{"liner"}, 4, 0.0, by_area});
+      reduce_with_modes(model, {"left", "liner"}, InterfaceOptions{{"liner"}, 4, 0.0, by_area});
   const MatrixXd K = whole.K_rr.block(9, 9, 16, 16), Phi = small.combined.middleCols(9, 4);
-  const MatrixXd kept = Phi * MatrixXd(Phi.transpose() * K * Phi).ldlt().solve(Phi.transpose());
-  const MatrixXd missed = MatrixXd(K.inverse()) - kept;
+  const MatrixXd kept = Phi * dense::solve_symmetric(Phi.transpose() * K * Phi, Phi.transpose());
+  const MatrixXd missed = dense::solve_symmetric(K, MatrixXd::Identity(16, 16)) - kept;
   const VectorXd root = patch_areas(model.grids.at("liner")).cwiseSqrt();
   const MatrixXd weighted = root.asDiagonal() * missed * root.asDiagonal();
-  return weighted.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+  return dense::symmetric_eigen(weighted, dense::EigenParts::kValues).values.maxCoeff();
 }
 
 TEST(InterfaceModes, ByAreaMissTheLeastWorkOfAnyPressure) {
@@ -221,7 +222,7 @@ TEST(InterfaceModes, RoundTripInTheFileAndKeepPlacesInRange) {
   const std::filesystem::path path =
       std::filesystem::path(::testing::TempDir()) / "clatter_interface.rom.h5";
   const rom::ReducedModel small =
-      reduce(lined_box(), {"left", "liner"}, InterfaceOptions{{"liner"}, 5});
+      reduce_with_modes(lined_box(), {"left", "liner"}, InterfaceOptions{{"liner"}, 5});
   H5File file = H5File::create(path);
   write_provenance(file, {"clatter/rom/1", "", {}});
   rom::write_reduced_model(file, small);
@@ -235,7 +236,7 @@ TEST(InterfaceModes, RoundTripInTheFileAndKeepPlacesInRange) {
 
 TEST(BadInput, OtherProgramsAndFixedSetsDoNotGetAReducedInterface) {
   const rom::ReducedModel small =
-      reduce(lined_box(), {"left", "liner"}, InterfaceOptions{{"liner"}, 5});
+      reduce_with_modes(lined_box(), {"left", "liner"}, InterfaceOptions{{"liner"}, 5});
   test::expect_parts(test::refusal_of([&] { export_reduced(small, "part.mtx"); }),
                      {"16", "interface modes", "[interface]"});
   modes::ModesOptions modes;
@@ -260,8 +261,8 @@ TEST(BadInput, InterfacesThatMakeNoSenseAreRefused) {
   test::expect_parts(parse("modes = 3\nsize = 2\n"), {"size"});
   const auto reduced = [](std::vector<std::string> sets, bool by_area) {
     return test::refusal_of([&] {
-      reduce(lined_box(), {"left", "point", "liner"},
-             InterfaceOptions{std::move(sets), 3, 0.0, by_area});
+      reduce_with_modes(lined_box(), {"left", "point", "liner"},
+                        InterfaceOptions{std::move(sets), 3, 0.0, by_area});
     });
   };
   test::expect_parts(reduced({"left", "liner"}, false), {"interface.sets", "3 of 6"});

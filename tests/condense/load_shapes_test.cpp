@@ -2,12 +2,11 @@
 // Static responses to loads as basis vectors.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
-
 #include "condense/basis/shape_basis.hpp"
 #include "condense/condense.hpp"
 #include "core/base/log.hpp"
+#include "core/dense/least_squares.hpp"
+#include "core/dense/solve.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
 #include "tests/condense/box_model.hpp"
 #include "tests/condense/solid_model.hpp"
@@ -19,8 +18,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-rom::ReducedModel reduce(const fe::FeModel& model, std::vector<std::string> boundary,
-                         std::vector<std::string> load_shapes, const std::string& method) {
+rom::ReducedModel reduce_loaded(const fe::FeModel& model, std::vector<std::string> boundary,
+                                std::vector<std::string> load_shapes, const std::string& method) {
   CondenseOptions options;
   options.method = method;
   options.boundary = std::move(boundary);
@@ -40,7 +39,7 @@ VectorXd static_answer(MatrixXd K, VectorXd f, const std::vector<int32_t>& held)
     K(dof, dof) = 1.0;
     f[dof] = 0.0;
   }
-  return K.ldlt().solve(f);
+  return dense::solve_symmetric(K, f);
 }
 
 /// Largest error of the reduced skin under a load while the set "left" is held, over the largest
@@ -72,20 +71,21 @@ fe::FeModel pushed_box() {
 TEST(LoadShapes, MakeTheStaticAnswerExactAtEverySkinNode) {
   const auto model = pushed_box();
   for (const std::string method : {"craig-bampton", "guyan", "craig-chang"}) {
-    const rom::ReducedModel with = reduce(model, {"left", "right"}, {"push", "pull"}, method);
+    const rom::ReducedModel with =
+        reduce_loaded(model, {"left", "right"}, {"push", "pull"}, method);
     EXPECT_EQ(with.certificate.load_shapes.value(), 2.0);
     EXPECT_LT(skin_error(model, with, "push"), 1e-9) << method;
     EXPECT_LT(skin_error(model, with, "pull"), 1e-9) << method;
   }
   // Without them, the six modes and the static shapes of the boundary leave errors of some per
   // cent.
-  const rom::ReducedModel without = reduce(model, {"left", "right"}, {}, "craig-bampton");
+  const rom::ReducedModel without = reduce_loaded(model, {"left", "right"}, {}, "craig-bampton");
   EXPECT_GT(skin_error(model, without, "push"), 1e-3);
 }
 
 TEST(LoadShapes, LookLikeModesWithUnitMass) {
   const rom::ReducedModel reduced =
-      reduce(pushed_box(), {"left", "right"}, {"push", "pull"}, "craig-bampton");
+      reduce_loaded(pushed_box(), {"left", "right"}, {"push", "pull"}, "craig-bampton");
   const auto n = reduced.size() - reduced.n_boundary;
   const MatrixXd K = reduced.K_rr.bottomRightCorner(n, n), M = reduced.M_rr.bottomRightCorner(n, n);
   EXPECT_LT((M - MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff(), 1e-10);
@@ -99,16 +99,16 @@ TEST(LoadShapes, OfUniformHeatGiveTheFreeExpansion) {
       test::solid_bar({0.12, 0.04, 0.03}, {4, 2, 2}, 0.3,
                       "[[nodes]]\nname = \"foot\"\nnode_set = \"x0\"\n"
                       "[[load]]\nname = \"heat\"\nkind = \"temperature\"\nvalue = 1.0\n");
-  const rom::ReducedModel reduced = reduce(model, {"foot"}, {"heat"}, "craig-bampton");
+  const rom::ReducedModel reduced = reduce_loaded(model, {"foot"}, {"heat"}, "craig-bampton");
   // Six rigid motions are left: the solution of least norm, from which their part is removed.
-  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(reduced.K_rr);
-  const VectorXd u = reduced.skin.T * solver.solve(reduced.loads.at("heat"));
+  const VectorXd u =
+      reduced.skin.T * dense::least_squares(reduced.K_rr, reduced.loads.at("heat")).X;
   VectorXd expected(u.size());
   for (Eigen::Index a = 0; a < reduced.skin.nodes.rows(); ++a)
     expected.segment<3>(3 * a) = 1.2e-5 * reduced.skin.nodes.row(a).transpose();
   const MatrixXd rigid = reduced.skin.T * reduced.rigid;
   const VectorXd rest = u - expected;
-  const VectorXd strain = rest - rigid * rigid.colPivHouseholderQr().solve(rest);
+  const VectorXd strain = rest - rigid * dense::least_squares(rigid, rest).X;
   EXPECT_LT(strain.norm(), 1e-8 * expected.norm());
 }
 
@@ -118,8 +118,8 @@ TEST(LoadShapes, ThatDependOnOthersAreDroppedAndCounted) {
   VectorXd at_boundary = VectorXd::Zero(model.size());
   at_boundary[model.set("right").dofs.front()] = 1.0;
   model.loads["at_boundary"] = at_boundary;
-  const rom::ReducedModel reduced =
-      reduce(model, {"left", "right"}, {"push", "at_boundary", "pull", "twice"}, "craig-bampton");
+  const rom::ReducedModel reduced = reduce_loaded(
+      model, {"left", "right"}, {"push", "at_boundary", "pull", "twice"}, "craig-bampton");
   EXPECT_EQ(reduced.certificate.load_shapes.value(), 2.0);
   EXPECT_EQ(reduced.certificate.dropped_vectors.value(), 2.0);
   EXPECT_LT(skin_error(model, reduced, "twice"), 1e-9);
@@ -142,7 +142,7 @@ TEST(ShapeBasisTest, SpansWhatIsNewAndNamesWhatIsNot) {
 
 TEST(BadInput, LoadShapesOfUnknownLoadsNameThosePresent) {
   test::expect_parts(test::refusal_of([&] {
-                       reduce(pushed_box(), {"left", "right"}, {"gsa"}, "craig-bampton");
+                       reduce_loaded(pushed_box(), {"left", "right"}, {"gsa"}, "craig-bampton");
                      }),
                      {"load_shapes", "gsa", "pull", "push"});
 }
@@ -151,7 +151,7 @@ TEST(BadInput, LoadShapesOfPrescribedDisplacementsAreRefused) {
   auto model = pushed_box();
   model.prescribed["push"] = VectorXd::Zero(0);
   test::expect_parts(test::refusal_of([&] {
-                       reduce(model, {"left", "right"}, {"push"}, "craig-bampton");
+                       reduce_loaded(model, {"left", "right"}, {"push"}, "craig-bampton");
                      }),
                      {"load_shapes", "push", "prescribes"});
 }

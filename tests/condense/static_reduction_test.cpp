@@ -2,13 +2,13 @@
 // The streamed static reduction against the shapes themselves.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <memory>
 #include <set>
 
 #include "condense/basis/reduced_basis.hpp"
 #include "core/base/log.hpp"
 #include "core/base/threads.hpp"
+#include "core/dense/cholesky.hpp"
 #include "core/fe/free_motions.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
 #include "tests/condense/box_model.hpp"
@@ -27,7 +27,7 @@ struct Case {
   PartitionedMatrix K = partition_matrix(model.K, partition);
   PartitionedMatrix M = partition_matrix(model.M, partition);
   MatrixXd K_ii = sparse::dense_symmetric(K.ii), M_ii = sparse::dense_symmetric(M.ii);
-  MatrixXd Psi = -K_ii.llt().solve(MatrixXd(K.ib));
+  MatrixXd Psi = -dense::Cholesky(K_ii).solve(MatrixXd(K.ib));
   std::shared_ptr<const sparse::SupernodalFactor> factor =
       std::make_shared<sparse::SupernodalFactor>(K.ii, K.ib);
 

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
+#include "core/dense/solve.hpp"
 #include "tests/dynamics/synthetic_engine.hpp"
 
 namespace clatter::dynamics {
@@ -37,7 +37,7 @@ Vector6 reactions(const EngineSpec& engine, const SliderCrank& crank, double mas
       -small.y(), -big.y(), big.x();
   b << rod.mass * centre.acceleration.x(), rod.mass * centre.acceleration.y() - stroke,
       rod.inertia * crank.rod_angle(t).acceleration - small.x() * stroke;
-  const Eigen::Vector3d f = A.partialPivLu().solve(b);
+  const Eigen::Vector3d f = dense::solve(A, b);
   const Eigen::Vector3d bearing(0.0, -f(1), -f(2));
   const Eigen::Vector3d side(0.0, -f(0), 0.0);  // through the piston, at the pin's height
   Vector6 on_block;

@@ -2,10 +2,10 @@
 // Scenes of several cylinders.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <set>
 
+#include "core/dense/solve.hpp"
 #include "dynamics/run/run_file.hpp"
 #include "dynamics/run/run_summary.hpp"
 #include "tests/dynamics/slap_scene.hpp"
@@ -161,7 +161,8 @@ gas_load = "head_4_gas"
   const Eigen::MatrixXd q = file.read_rows("bodies/block/q").transpose();
   const Eigen::MatrixXd inertia = block.M_rr * block.rigid;
   const Eigen::MatrixXd deformed =
-      q - block.rigid * (block.rigid.transpose() * inertia).ldlt().solve(inertia.transpose() * q);
+      q - block.rigid *
+              dense::solve_symmetric(block.rigid.transpose() * inertia, inertia.transpose() * q);
   const Eigen::Index end = q.cols() - 1, middle = end / 2;
   const int head_3 = block.set("head_3").dofs[2], head_4 = block.set("head").dofs[2];
   EXPECT_GT(deformed(head_3, end), deformed(head_3, middle) + 1e-6);

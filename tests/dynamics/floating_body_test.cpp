@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "dynamics/force/spin_element.hpp"
 #include "dynamics/run/energy.hpp"
 #include "tests/dynamics/fixtures.hpp"
@@ -274,11 +274,10 @@ TEST(FloatingBody, InPureTranslationItIsEquationTen) {
   Eigen::Matrix2d K, M;
   K << outer + inner, -inner, -inner, inner;
   M << box, 0.0, 0.0, mass;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> exact(K, M);
-  const Eigen::Vector2d at = exact.eigenvectors().transpose() * M * Eigen::Vector2d(0.0, 0.01);
+  const dense::Eigenpairs exact = dense::symmetric_eigen(K, M);
+  const Eigen::Vector2d at = exact.vectors.transpose() * M * Eigen::Vector2d(0.0, 0.01);
   const Eigen::Vector2d moved =
-      exact.eigenvectors() *
-      Eigen::Vector2d(at.array() * (exact.eigenvalues().array().sqrt() * 0.5).cos());
+      exact.vectors * Eigen::Vector2d(at.array() * (exact.values.array().sqrt() * 0.5).cos());
   EXPECT_NEAR(X, moved(0), 1e-5);
   EXPECT_NEAR(X + q, moved(1), 1e-5);
 }

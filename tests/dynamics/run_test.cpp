@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include <fstream>
 
 #include "core/base/error.hpp"
+#include "core/dense/solve.hpp"
 #include "dynamics/run/run_file.hpp"
 #include "dynamics/run/run_summary.hpp"
 #include "tests/dynamics/slap_scene.hpp"
@@ -246,8 +245,8 @@ mode_limit_hz = 8000.0
   const rom::ReducedModel& block = bodies[1].model;
   const RowMatrix q = back.read_rows("bodies/block/q");
   const Eigen::MatrixXd inertia = block.M_rr * block.rigid;
-  const Eigen::MatrixXd motion =
-      (block.rigid.transpose() * inertia).ldlt().solve(inertia.transpose() * q.transpose());
+  const Eigen::MatrixXd motion = dense::solve_symmetric(block.rigid.transpose() * inertia,
+                                                        inertia.transpose() * q.transpose());
   const Eigen::MatrixXd deformation = q.transpose() - block.rigid * motion;
   const double largest = deformation(block.set("liner_4").dofs, Eigen::all).cwiseAbs().maxCoeff();
   EXPECT_GT(largest, 1e-7);
@@ -289,7 +288,7 @@ TEST_F(Runs, ATipThatBecameACombinationOfCoordinatesMovesTheSame) {
   turned.K_rr = W.transpose() * bar.K_rr * W;
   turned.M_rr = (0.5 * (turned.M_rr + turned.M_rr.transpose())).eval();
   turned.K_rr = (0.5 * (turned.K_rr + turned.K_rr.transpose())).eval();
-  turned.rigid = W.partialPivLu().solve(bar.rigid);
+  turned.rigid = dense::solve(W, bar.rigid);
   turned.combined = W.row(0);
   turned.sets.at("tip").dofs = {n};
   turned.n_boundary = 0;

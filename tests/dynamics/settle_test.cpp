@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <array>
 #include <filesystem>
 #include <numbers>
 
+#include "core/dense/solve.hpp"
 #include "dynamics/force/mount.hpp"
 #include "dynamics/run/mounted_motion.hpp"
 #include "dynamics/run/run_end.hpp"
@@ -60,7 +59,7 @@ class MountedEngine {
     Eigen::Matrix<double, 6, 6> stiffness;
     for (int k = 0; k < 6; ++k)
       stiffness.col(k) = -rate(Vector12::Unit(k), Vector6::Zero()).tail<6>();
-    return stiffness.lu().solve(rate(Vector12::Zero(), force).tail<6>());
+    return dense::solve(stiffness, rate(Vector12::Zero(), force).tail<6>());
   }
   static constexpr double kCycle = 0.06, kEnd = 0.03;
 
@@ -79,7 +78,7 @@ class MountedEngine {
       sum += y_(at, Eigen::all).transpose() * response.force;
     }
     Vector12 rate;
-    rate << z.tail<6>(), (modal_.transpose() * modal_).ldlt().solve(sum);
+    rate << z.tail<6>(), dense::solve_symmetric(modal_.transpose() * modal_, sum);
     return rate;
   }
   std::unique_ptr<Model> model_;

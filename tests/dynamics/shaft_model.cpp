@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/dynamics/shaft_model.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
+
+#include "core/dense/complex.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 
 namespace clatter::dynamics::testing {
 
@@ -50,9 +52,9 @@ Eigen::VectorXd frequencies(System& system, int rigid) {
   const LinearMotion motion = linearised(system, rest, rest);
   const Eigen::VectorXd root = motion.M.cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = root.asDiagonal() * motion.K * root.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
+  const Eigen::VectorXd values = dense::symmetric_eigen(scaled, dense::EigenParts::kValues).values;
   const Eigen::Index count = scaled.rows() - rigid;
-  return solver.eigenvalues().tail(count).cwiseSqrt() / (2.0 * std::numbers::pi);
+  return values.tail(count).cwiseSqrt() / (2.0 * std::numbers::pi);
 }
 
 Eigen::VectorXcd eigenvalues(const LinearMotion& motion) {
@@ -62,7 +64,7 @@ Eigen::VectorXcd eigenvalues(const LinearMotion& motion) {
   A.topRightCorner(n, n).setIdentity();
   A.bottomLeftCorner(n, n) = -(inverse * motion.K);
   A.bottomRightCorner(n, n) = -(inverse * motion.C);
-  return Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
+  return dense::eigenvalues(A);
 }
 
 std::string steel_shaft(const std::string& more) {

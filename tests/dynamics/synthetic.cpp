@@ -3,11 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
 #include "core/base/artefact.hpp"
+#include "core/dense/solve.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 
 namespace clatter::dynamics::testing {
 namespace {
@@ -58,7 +59,7 @@ struct Assembly {
     model.M_rr = Eigen::Map<VectorXd>(mass.data(), n).asDiagonal();
     const MatrixXd& R = model.rigid;
     const MatrixXd N =
-        MatrixXd::Identity(n, n) - R * (R.transpose() * R).ldlt().solve(R.transpose());
+        MatrixXd::Identity(n, n) - R * dense::solve_symmetric(R.transpose() * R, R.transpose());
     const MatrixXd K = N.transpose() * Eigen::Map<VectorXd>(stiffness.data(), n).asDiagonal() * N;
     model.K_rr = 0.5 * (K + K.transpose());
     for (auto& [set_name, set] : model.sets) {
@@ -150,11 +151,11 @@ rom::ReducedModel clamped_bar(double length, int elements, int modes) {
   }
   const int n_i = elements - 1;
   const MatrixXd K_ii = K.topLeftCorner(n_i, n_i), M_ii = M.topLeftCorner(n_i, n_i);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> fixed(K_ii, M_ii);
+  const dense::Eigenpairs fixed = dense::symmetric_eigen(K_ii, M_ii);
   MatrixXd T = MatrixXd::Zero(elements, 1 + modes);
-  T.col(0).head(n_i) = -K_ii.ldlt().solve(K.col(elements - 1).head(n_i));
+  T.col(0).head(n_i) = -dense::solve_symmetric(K_ii, K.col(elements - 1).head(n_i));
   T(elements - 1, 0) = 1.0;
-  T.topRightCorner(n_i, modes) = fixed.eigenvectors().leftCols(modes);
+  T.topRightCorner(n_i, modes) = fixed.vectors.leftCols(modes);
   rom::ReducedModel model;
   model.name = "bar";
   model.method = "craig-bampton";
@@ -168,7 +169,7 @@ rom::ReducedModel clamped_bar(double length, int elements, int modes) {
   model.sets["tip"] = {
       "node", {0}, {"tip.x"}, Eigen::RowVector3d(length, 0, 0), Eigen::RowVector3d(1, 0, 0), {0}};
   model.mass.mass = rho * area * length;
-  model.fixed_interface_hz = fixed.eigenvalues().head(modes).cwiseSqrt() / (2.0 * std::numbers::pi);
+  model.fixed_interface_hz = fixed.values.head(modes).cwiseSqrt() / (2.0 * std::numbers::pi);
   model.valid_to_hz = modes > 0 ? 0.5 * model.fixed_interface_hz(modes - 1) : 1.0;
   return model;
 }

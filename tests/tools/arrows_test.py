@@ -17,23 +17,24 @@ BUILD = pathlib.Path(os.environ.get("CLATTER_BUILD", SOURCE / "build/release"))
 # Libraries: each folder of core/ is one, and may use these of the others.
 LIBRARIES = {
     "core/base": set(),
+    "core/dense": set(),
     "core/mesh": {"core/base"},
     "core/rom": {"core/base"},
     "core/run": set(),
-    "core/sparse": {"core/base"},
-    "core/sound": {"core/base"},
-    "core/fe": {"core/base", "core/mesh", "core/rom"},
-    "core/modes": {"core/base", "core/mesh", "core/rom", "core/fe", "core/sparse"},
-    "core/ranks": {"core/base", "core/mesh", "core/rom", "core/fe", "core/sparse"},
+    "core/sparse": {"core/base", "core/dense"},
+    "core/sound": {"core/base", "core/dense"},
+    "core/fe": {"core/base", "core/dense", "core/mesh", "core/rom"},
+    "core/modes": {"core/base", "core/dense", "core/mesh", "core/rom", "core/fe", "core/sparse"},
+    "core/ranks": {"core/base", "core/dense", "core/mesh", "core/rom", "core/fe", "core/sparse"},
 }
 # Stages: each is one program, writes files for the next one, and uses no other stage.
 STAGES = {
     "mesh": {"core/base", "core/mesh"},
-    "assembly": {"core/base", "core/mesh", "core/rom", "core/fe", "core/sparse"},
+    "assembly": {"core/base", "core/dense", "core/mesh", "core/rom", "core/fe", "core/sparse"},
     "modal": set(LIBRARIES) - {"core/run", "core/sound"},
     "condense": set(LIBRARIES) - {"core/run", "core/sound"},
-    "dynamics": {"core/base", "core/rom", "core/run"},
-    "recover": {"core/base", "core/rom", "core/run", "core/sound"},
+    "dynamics": {"core/base", "core/dense", "core/rom", "core/run"},
+    "recover": {"core/base", "core/dense", "core/rom", "core/run", "core/sound"},
 }
 ALLOWED = LIBRARIES | STAGES
 # Library targets that are not named after the folder of their stage.
@@ -47,7 +48,7 @@ HEADER_OWNERS = {
     r"toml\+\+/.*|toml\+\+\.h": ["core/base/config"],
     r"CLI/.*": ["core/base/command_line"],
     r"nlohmann/.*": ["core/base/json_line"],
-    r"lapack\.h": ["core/sound/complex_lu", "core/sparse/dense_eigen", "core/sparse/factor/front", "dynamics/integrate/dense_lu"],
+    r"lapack\.h": ["core/dense/", "core/sound/complex_lu", "core/sparse/factor/front", "dynamics/integrate/dense_lu"],
     r"mpi\.h": ["core/ranks/mpi_", "core/sparse/factor/mumps_"],
     r"dmumps_c\.h": ["core/ranks/mumps_", "core/sparse/factor/mumps_"],
     r"metis\.h": ["core/sparse/factor/metis_", "mesh/part/metis_"],

@@ -12,7 +12,7 @@
 #include "core/base/memory_limit.hpp"
 #include "core/base/progress.hpp"
 #include "core/base/threads.hpp"
-#include "core/sparse/dense_eigen.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/sparse/eigen/block_lanczos.hpp"
 #include "core/sparse/eigen/local_modes.hpp"
 #include "core/sparse/eigen/mode_density.hpp"
@@ -174,7 +174,7 @@ EigenResult largest_pairs(const MatrixXd& T, int count, uint64_t seed) {
   constexpr Index kDense = 1200;  // up to this size divide and conquer is as fast
   EigenResult out;
   if (T.rows() <= kDense || 4 * Index{count} > T.rows()) {
-    const DenseEigen eig = symmetric_eigen(T);
+    const dense::Eigenpairs eig = dense::symmetric_eigen(T);
     if (!eig.ok) return out;
     out.values = eig.values.reverse().head(count).cwiseInverse();
     out.vectors = eig.vectors.rowwise().reverse().leftCols(count);

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <random>
 
@@ -11,7 +10,7 @@
 #include "core/base/log.hpp"
 #include "core/base/memory_limit.hpp"
 #include "core/base/progress.hpp"
-#include "core/sparse/dense_eigen.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/sparse/eigen/krylov_basis.hpp"
 #include "core/sparse/factor/sweep_kernel.hpp"
 
@@ -156,13 +155,13 @@ MatrixXd Run::orthonormalise(Index begin) {
     indefinite_ = indefinite_ || lengths.diagonal().minCoeff() <
                                      -kIndefinite * lengths.diagonal().cwiseAbs().maxCoeff();
     const VectorXd scale = lengths.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(scale.asDiagonal() * lengths *
-                                                      scale.asDiagonal());
-    const VectorXd d = eig.eigenvalues().cwiseMax(1e-30);
+    const dense::Eigenpairs eig =
+        dense::symmetric_eigen(scale.asDiagonal() * lengths * scale.asDiagonal());
+    const VectorXd d = eig.values.cwiseMax(1e-30);
     const MatrixXd to_unit =
-        scale.asDiagonal() * eig.eigenvectors() * d.cwiseSqrt().cwiseInverse().asDiagonal();
-    const MatrixXd from_unit = d.cwiseSqrt().asDiagonal() * eig.eigenvectors().transpose() *
-                               scale.cwiseInverse().asDiagonal();
+        scale.asDiagonal() * eig.vectors * d.cwiseSqrt().cwiseInverse().asDiagonal();
+    const MatrixXd from_unit =
+        d.cwiseSqrt().asDiagonal() * eig.vectors.transpose() * scale.cwiseInverse().asDiagonal();
     transform(Y_, to_unit);
     transform(MY_, to_unit);
     R = (from_unit * R).eval();
@@ -210,7 +209,7 @@ bool Run::project() {
   // A second thread gains nothing at these sizes, and busy-waits on one of our cores after each
   // call.
   const BlasThreads one(1);
-  const DenseEigen eig = symmetric_eigen(T);
+  const dense::Eigenpairs eig = dense::symmetric_eigen(T);
   if (!eig.ok) return false;
   nu_ = eig.values.reverse();
   S_ = eig.vectors.rowwise().reverse();

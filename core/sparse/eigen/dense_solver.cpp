@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sparse/eigen/dense_solver.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "core/sparse/dense_eigen.hpp"
+#include "core/dense/cholesky.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 
 namespace clatter::sparse {
 
@@ -30,25 +30,24 @@ EigenResult solve_shifted(const MatrixXd& K, const MatrixXd& M, const MatrixXd& 
                           double sigma) {
   EigenResult result;
   const MatrixXd shifted = K - sigma * M;
-  const Eigen::LLT<MatrixXd> factor(shifted);
-  if (factor.info() != Eigen::Success) {
+  const dense::Cholesky factor(shifted);
+  if (!factor.ok()) {
     result.status = EigenStatus::kBadInput;
     result.message = "K - sigma M is not positive definite";
     return result;
   }
-  const MatrixXd half = factor.matrixL().solve(M);
-  MatrixXd C = factor.matrixL().solve(half.transpose());
+  const MatrixXd half = factor.solve_lower(M);
+  MatrixXd C = factor.solve_lower(half.transpose());
   C = (0.5 * (C + C.transpose())).eval();
   if (rigid.cols() > 0) {  // in z = L^T x: C <- (1 - Z Z^T) C (1 - Z Z^T)
-    const MatrixXd image = factor.matrixU() * rigid;
-    const MatrixXd Z = image * Eigen::LLT<MatrixXd>(image.transpose() * image)
-                                   .matrixU()
-                                   .solve(MatrixXd::Identity(rigid.cols(), rigid.cols()));
+    const MatrixXd image = factor.lower().transpose() * rigid;
+    const dense::Cholesky lengths(image.transpose() * image);
+    const MatrixXd Z = lengths.solve_lower(image.transpose()).transpose();
     C -= Z * (Z.transpose() * C);
     C -= (C * Z) * Z.transpose();
     C = (0.5 * (C + C.transpose())).eval();
   }
-  const DenseEigen solver = symmetric_eigen(C);
+  const dense::Eigenpairs solver = dense::symmetric_eigen(C);
   if (!solver.ok) {
     result.message = "the dense eigen-solver did not converge";
     return result;
@@ -64,7 +63,7 @@ EigenResult solve_shifted(const MatrixXd& K, const MatrixXd& M, const MatrixXd& 
   result.values = kept.cwiseInverse().array() + sigma;
   const MatrixXd Z = solver.vectors.middleCols(n - found, found).rowwise().reverse();
   // z^T z = 1 means x^T (K - sigma M) x = 1, so x^T M x = nu.
-  result.vectors = factor.matrixU().solve(Z) * kept.cwiseSqrt().cwiseInverse().asDiagonal();
+  result.vectors = factor.solve_upper(Z) * kept.cwiseSqrt().cwiseInverse().asDiagonal();
   result.status = EigenStatus::kConverged;
   result.solves = n;
   return result;
@@ -95,8 +94,8 @@ EigenResult solve_shifted_enough(const MatrixXd& K, const MatrixXd& M, const Mat
 bool clearly_definite(const MatrixXd& K) {
   if (!(K.diagonal().array() > 0.0).all()) return false;
   const VectorXd scale = K.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<MatrixXd> factor(scale.asDiagonal() * K * scale.asDiagonal());
-  return factor.info() == Eigen::Success && factor.rcond() > 1e-13;
+  const dense::Cholesky factor(scale.asDiagonal() * K * scale.asDiagonal());
+  return factor.reciprocal_condition() > 1e-13;
 }
 
 void keep_first(Index count, EigenResult& result) {

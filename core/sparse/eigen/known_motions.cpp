@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sparse/eigen/known_motions.hpp"
 
-#include <Eigen/Cholesky>
 #include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/threads.hpp"
+#include "core/dense/cholesky.hpp"
 
 namespace clatter::sparse {
 
@@ -42,11 +42,10 @@ void KnownMotions::remove(double* x, int count) const {
 MatrixXd orthonormal_in_mass(const MatrixPencil& pencil, const MatrixXd& R) {
   MatrixXd U = R;
   for (int pass = 0; pass < 2 && U.cols() > 0; ++pass) {
-    const Eigen::LLT<MatrixXd> gram(
-        pencil.team().sum(MatrixXd(U.transpose() * pencil.mass_times(U))));
-    if (gram.info() != Eigen::Success)
+    const dense::Cholesky gram(pencil.team().sum(MatrixXd(U.transpose() * pencil.mass_times(U))));
+    if (!gram.ok())
       throw NumericsError("modes: the rigid-body motions are linearly dependent in M");
-    U = gram.matrixU().solve<Eigen::OnTheRight>(U).eval();
+    U = gram.solve_lower(U.transpose()).transpose().eval();
   }
   return U;
 }

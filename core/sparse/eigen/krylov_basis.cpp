@@ -22,19 +22,19 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr Index kTile = 512;  // rows whose products stay in the cache
+constexpr Index kRowTile = 512;  // rows whose products stay in the cache
 
 /// body(first row, rows) for tiles of [begin, end).
 template <class Body>
-void for_each_tile(Index begin, Index end, Body&& body) {
-  for (Index row = begin; row < end; row += kTile) body(row, std::min(kTile, end - row));
+void for_each_row_tile(Index begin, Index end, Body&& body) {
+  for (Index row = begin; row < end; row += kRowTile) body(row, std::min(kRowTile, end - row));
 }
 
 /// Distributes rows to the threads, one BLAS thread each.
 template <class Body>
 void on_all_threads(Index size, Body&& body) {
   const BlasThreads one(1);
-  parallel_pieces(size, [&](int64_t begin, int64_t end) { for_each_tile(begin, end, body); });
+  parallel_pieces(size, [&](int64_t begin, int64_t end) { for_each_row_tile(begin, end, body); });
 }
 
 /// Sum over all rows of the products `add(row, rows, sum)`, one partial sum per thread.
@@ -45,8 +45,8 @@ MatrixXd summed(Index size, Index rows, Index columns, Add&& add) {
   std::vector<MatrixXd> parts(static_cast<size_t>(pieces), MatrixXd::Zero(rows, columns));
   parallel_pieces(pieces, [&](int64_t piece, int64_t) {
     MatrixXd& sum = parts[static_cast<size_t>(piece)];
-    for_each_tile(size * piece / pieces, size * (piece + 1) / pieces,
-                  [&](Index row, Index count) { add(row, count, sum); });
+    for_each_row_tile(size * piece / pieces, size * (piece + 1) / pieces,
+                      [&](Index row, Index count) { add(row, count, sum); });
   });
   for (size_t p = 1; p < parts.size(); ++p) parts[0] += parts[p];
   return std::move(parts[0]);

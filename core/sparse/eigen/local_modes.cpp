@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sparse/eigen/local_modes.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <random>
 
 #include "core/base/error.hpp"
-#include "core/sparse/dense_eigen.hpp"
+#include "core/dense/qr.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 
 namespace clatter::sparse {
 namespace {
@@ -19,15 +19,15 @@ constexpr double kDependent = 1e-9;  // a block reduced by this factor is linear
 constexpr Index kDenseBlocks = 6;    // up to this many blocks, dense algebra is cheaper
 
 /// Largest first.
-DenseEigen descending(const MatrixXd& T) {
-  DenseEigen eig = symmetric_eigen(0.5 * (T + T.transpose()));
+dense::Eigenpairs descending(const MatrixXd& T) {
+  dense::Eigenpairs eig = dense::symmetric_eigen(0.5 * (T + T.transpose()));
   if (!eig.ok) throw NumericsError("modes: a substructure's modes did not converge");
   eig.values = eig.values.reverse().eval();
   eig.vectors = eig.vectors.rowwise().reverse().eval();
   return eig;
 }
 
-LocalModes kept(const MatrixXd& Q, const DenseEigen& ritz, const MatrixXd& C, double cut) {
+LocalModes kept(const MatrixXd& Q, const dense::Eigenpairs& ritz, const MatrixXd& C, double cut) {
   const Index count = (ritz.values.array() >= cut).count();
   LocalModes out;
   out.values = ritz.values.head(count);
@@ -67,7 +67,7 @@ struct Krylov {
 };
 
 /// Whether the wanted Ritz vectors and the first unwanted one have converged.
-bool settled(const DenseEigen& ritz, const MatrixXd& R, double cut) {
+bool settled(const dense::Eigenpairs& ritz, const MatrixXd& R, double cut) {
   for (Index k = 0; k < ritz.values.size(); ++k) {
     const double residual = (R * ritz.vectors.col(k).tail(R.cols())).norm();
     const double nu = ritz.values[k];
@@ -92,14 +92,14 @@ LocalModes local_modes(const LocalOperator& A, const LocalOptions& options) {
   MatrixXd next = random_block(A.size, b, options.seed), W, part;
   Index check_at = 2 * b;
   for (;;) {
-    const Eigen::HouseholderQR<MatrixXd> qr(next);
+    const dense::Qr qr = dense::qr(next);
     if (space.size > 0) {
-      space.R = qr.matrixQR().topRows(b).triangularView<Eigen::Upper>();
+      space.R = qr.R;
       const double largest = space.T.topLeftCorner(space.size, space.size).diagonal().maxCoeff();
       const bool left = space.R.diagonal().cwiseAbs().minCoeff() < kDependent * largest;
       if (left || space.size + 2 * b > A.size) return all_by_dense(A, options);
       if (space.size >= check_at) {
-        const DenseEigen ritz = descending(space.T.topLeftCorner(space.size, space.size));
+        const dense::Eigenpairs ritz = descending(space.T.topLeftCorner(space.size, space.size));
         if (settled(ritz, space.R, options.cut))
           return kept(space.Q.leftCols(space.size), ritz, space.C.leftCols(space.size),
                       options.cut);
@@ -108,7 +108,7 @@ LocalModes local_modes(const LocalOperator& A, const LocalOptions& options) {
     }
     const Index end = space.size + b;
     space.grow(A.size, A.inside, end);
-    space.Q.middleCols(space.size, b) = qr.householderQ() * MatrixXd::Identity(A.size, b);
+    space.Q.middleCols(space.size, b) = qr.Q;
     A.apply(space.Q.middleCols(space.size, b), W, part);
     space.C.middleCols(space.size, b) = part;
     const auto basis = space.Q.leftCols(end);

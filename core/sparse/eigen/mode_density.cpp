@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sparse/eigen/mode_density.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "core/base/sparse.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/sparse/factor/sweep_kernel.hpp"
 
 namespace clatter::sparse {
@@ -62,15 +62,14 @@ double interpolated(const std::vector<ModeDensity::Point>& points, double nu) {
 
 ModeDensity::ModeDensity(const SubtreeProduct& A, int64_t size, uint64_t seed) {
   const Recurrence found = lanczos(A, size, seed);
-  Eigen::SelfAdjointEigenSolver<MatrixXd> solver;
   for (int v = 0; v < kVectors; ++v) {
-    solver.computeFromTridiagonal(found.alpha.col(v).matrix(),
-                                  found.beta.col(v).head(kSteps - 1).matrix());
+    const dense::Eigenpairs ritz =
+        dense::tridiagonal_eigen(found.alpha.col(v), found.beta.col(v).head(kSteps - 1));
     double above = 0.0;
     std::vector<Point> points;
     for (int k = kSteps; k-- > 0;) {  // half of a node's weight lies on each side of it
-      const double nu = solver.eigenvalues()[k];
-      const double weight = std::pow(solver.eigenvectors()(0, k), 2) * static_cast<double>(size);
+      const double nu = ritz.values[k];
+      const double weight = std::pow(ritz.vectors(0, k), 2) * static_cast<double>(size);
       if (nu <= 0.0) break;
       points.push_back({nu, above + 0.5 * weight});
       above += weight;

@@ -5,7 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/threads.hpp"
-#include "core/sparse/dense_eigen.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/sparse/dense_product.hpp"
 
 namespace clatter::sparse {
@@ -51,7 +51,7 @@ void refine_modes(const ShiftInvert& problem, const SymmetricOperator& mass_of, 
   }
   problem.team->sum(shifted.data(), shifted.size());
   problem.team->sum(mass.data(), mass.size());
-  const DenseEigen ritz = symmetric_eigen(mass.transpose(), shifted.transpose());
+  const dense::Eigenpairs ritz = dense::symmetric_eigen(mass.transpose(), shifted.transpose());
   if (!ritz.ok) throw NumericsError("modes: the refined vectors are linearly dependent");
   const VectorXd nu = ritz.values.reverse();
   values = problem.sigma + nu.array().inverse();

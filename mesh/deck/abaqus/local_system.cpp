@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kParallel = 1e-9;  // sine of an angle: coordinates have few digits
 
-Eigen::Vector3d point_at(const Fields& fields, size_t first) {
+Eigen::Vector3d point_from(const Fields& fields, size_t first) {
   Eigen::Vector3d x;
   for (size_t k = 0; k < 3; ++k) {
     x[static_cast<int>(k)] = fields.number_or(first + k, "coordinate", 0.0);
@@ -27,14 +27,14 @@ LocalSystem local_system(const Card& card, const Source& source) {
   if (card.size() == 0) return out;
   const Fields first = card.line(0, source);
   first.at_most(6, "the origin and a point of the x axis");
-  out.origin = point_at(first, 0);
+  out.origin = point_from(first, 0);
   if (first.size() <= 3) return out;
-  const Eigen::Vector3d x = point_at(first, 3) - out.origin;
+  const Eigen::Vector3d x = point_from(first, 3) - out.origin;
   Eigen::Vector3d in_plane = Eigen::Vector3d::UnitZ().cross(x);
   if (card.size() > 1) {
     const Fields second = card.line(1, source);
     second.at_most(3, "a point of the xy plane");
-    in_plane = point_at(second, 0) - out.origin;
+    in_plane = point_from(second, 0) - out.origin;
   }
   const Eigen::Vector3d z = x.cross(in_plane);
   if (!(z.norm() > kParallel * x.norm() * in_plane.norm())) {

@@ -2,13 +2,14 @@
 // Unit tests of the sparse factor: permutation, tree, sweeps, boundary, counts.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <numeric>
 
 #include "core/base/threads.hpp"
+#include "core/dense/cholesky.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 #include "core/sparse/factor/front.hpp"
 #include "core/sparse/factor/inertia.hpp"
 #include "core/sparse/factor/mumps_inertia.hpp"
@@ -161,7 +162,7 @@ void for_thread_counts(std::initializer_list<int> counts, Body&& body) {
 
 TEST(SupernodalFactorTest, SubtreesOfTheThreadsAndTheTopSolveTogether) {
   const SparseMatrix A = held_box(12, 9, 9);
-  const MatrixXd b = test::random_matrix(A.rows(), 24), exact = full(A).llt().solve(b);
+  const MatrixXd b = test::random_matrix(A.rows(), 24), exact = dense::Cholesky(full(A)).solve(b);
   for_thread_counts({1, 2, 3, 5}, [&](int threads) {
     const SupernodalFactor factor(A);
     const TreeSchedule plan = schedule(factor.tree(), threads);
@@ -179,8 +180,8 @@ TEST(SupernodalFactorTest, LoadsComeToTheBoundaryByTheForwardSweepAlone) {
   const SparseMatrix inside = dense.topLeftCorner(n, n).sparseView();
   const SparseMatrix coupling = dense.topRightCorner(n, n_b).sparseView();
   const MatrixXd f = test::random_matrix(n, 130);
-  const MatrixXd expected =
-      dense.topRightCorner(n, n_b).transpose() * dense.topLeftCorner(n, n).llt().solve(f);
+  const MatrixXd expected = dense.topRightCorner(n, n_b).transpose() *
+                            clatter::dense::Cholesky(dense.topLeftCorner(n, n)).solve(f);
   for_thread_counts({1, 2, 3}, [&](int threads) {
     const SupernodalFactor factor(inside, coupling);
     for (const Index count : {1, 5, 130})
@@ -198,7 +199,8 @@ TEST(SupernodalFactorTest, TheBoundaryComesWithTheElimination) {
   const SparseMatrix coupling = dense.topRightCorner(n, n_b).sparseView();
   const SupernodalFactor factor(inside, coupling);
   const MatrixXd expected =
-      MatrixXd(coupling).transpose() * dense.topLeftCorner(n, n).llt().solve(MatrixXd(coupling));
+      MatrixXd(coupling).transpose() *
+      clatter::dense::Cholesky(dense.topLeftCorner(n, n)).solve(MatrixXd(coupling));
   EXPECT_LT((factor.boundary_part() - expected).norm(), 1e-12 * expected.norm());
   const MatrixXd b = test::random_matrix(n, 3);  // the boundary rows are not part of the solves
   EXPECT_LT((dense.topLeftCorner(n, n) * factor.solve(b) - b).norm(), 1e-11 * b.norm());
@@ -206,9 +208,8 @@ TEST(SupernodalFactorTest, TheBoundaryComesWithTheElimination) {
 
 TEST(Inertia, OwnPivotsAndThoseOfMumpsCountTheSame) {
   const auto box = spring_box(8, 6, 5);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> dense(full(box.K), full(box.M),
-                                                                 Eigen::EigenvaluesOnly);
-  const VectorXd& values = dense.eigenvalues();
+  const VectorXd values =
+      dense::symmetric_eigen(full(box.K), full(box.M), dense::EigenParts::kValues).values;
   int compared = 0, by_own = 0;
   for (Index j = 7; j < values.size(); j += 23) {  // far into the indefinite range, too
     if (values[j] - values[j - 1] < 1e-6 * values[j]) continue;

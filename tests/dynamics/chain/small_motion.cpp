@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/dynamics/chain/small_motion.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include "core/dense/complex.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 
 namespace clatter::dynamics::testing {
 
@@ -72,9 +72,9 @@ SmallMotion small_motion(System& system, const VectorXd& y) {
   for (Eigen::Index j = 0; j < y.size(); ++j)
     root(j) = std::sqrt(system.mobility({}, {static_cast<int>(j)}).v(0, 0));
   const MatrixXd A = root.asDiagonal() * (0.5 * (K + K.transpose())) * root.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(A);
-  return {solver.eigenvalues().cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi),
-          root.asDiagonal() * solver.eigenvectors()};
+  const dense::Eigenpairs solved = dense::symmetric_eigen(A);
+  return {solved.values.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi),
+          root.asDiagonal() * solved.vectors};
 }
 
 DampedMotion damped_motion(System& system, const VectorXd& y, std::complex<double> shift,
@@ -82,28 +82,29 @@ DampedMotion damped_motion(System& system, const VectorXd& y, std::complex<doubl
   const Quadratic q(system, y);
   const Eigen::Index n = q.size();
   const MatrixXcd shifted = q.K + shift * q.C + MatrixXcd((shift * shift * q.M).asDiagonal());
-  const Eigen::PartialPivLU<MatrixXcd> lu(shifted);
   MatrixXcd x(2 * n, 2 * count);
   for (Eigen::Index i = 0; i < x.rows(); ++i)
     for (Eigen::Index j = 0; j < x.cols(); ++j)
       x(i, j) = std::polar(1.0, std::sqrt(2.0) * static_cast<double>((i + 1) * (i + 1) * (j + 1)));
   for (int k = 0; k < 12; ++k) {
     const MatrixXcd w = q.E(x), a = w.topRows(n), b = w.bottomRows(n);
-    const MatrixXcd eta = -lu.solve(b + q.C * a + shift * (q.M.asDiagonal() * a));
+    const MatrixXcd eta =
+        -dense::solve_complex(shifted, b + q.C * a + shift * (q.M.asDiagonal() * a));
     x << eta, a + shift * eta;
-    x = Eigen::HouseholderQR<MatrixXcd>(x).householderQ() * MatrixXcd::Identity(2 * n, 2 * count);
+    x = dense::orthonormal(x);
   }
-  const MatrixXcd small = (x.adjoint() * q.E(x)).partialPivLu().solve(x.adjoint() * q.A(x));
-  const Eigen::ComplexEigenSolver<MatrixXcd> solver(small);
+  const MatrixXcd small =
+      dense::solve_complex(MatrixXcd(x.adjoint() * q.E(x)), x.adjoint() * q.A(x));
+  const dense::ComplexEigenpairs solved = dense::complex_eigen(small);
   std::vector<Eigen::Index> order(static_cast<size_t>(small.rows()));
   for (size_t k = 0; k < order.size(); ++k) order[k] = static_cast<Eigen::Index>(k);
-  const auto distance = [&](Eigen::Index k) { return std::abs(solver.eigenvalues()(k) - shift); };
+  const auto distance = [&](Eigen::Index k) { return std::abs(solved.values(k) - shift); };
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return distance(a) < distance(b); });
   DampedMotion found{VectorXcd(count), MatrixXcd(y.size(), count)};
   for (int k = 0; k < count; ++k) {
     const Eigen::Index at = order[static_cast<size_t>(k)];
-    found.s(k) = solver.eigenvalues()(at);
-    found.shapes.col(k) = (q.P * (x * solver.eigenvectors().col(at)).topRows(n)).normalized();
+    found.s(k) = solved.values(at);
+    found.shapes.col(k) = (q.P * (x * solved.vectors.col(at)).topRows(n)).normalized();
   }
   return found;
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 
+#include "core/dense/solve.hpp"
 #include "dynamics/film/banded_lu.hpp"
 
 namespace clatter::film {
@@ -25,7 +26,7 @@ TEST(BandedLu, AgreesWithDenseLuForOneAndManyRightHandSides) {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> b(n, k);
   for (int i = 0; i < n; ++i)
     for (int c = 0; c < k; ++c) b(i, c) = next();
-  const Eigen::MatrixXd exact = dense.partialPivLu().solve(Eigen::MatrixXd(b));
+  const Eigen::MatrixXd exact = clatter::dense::solve(dense, b);
   ASSERT_TRUE(lu.factor());
   Eigen::VectorXd one = b.col(0);
   lu.solve(one.data());

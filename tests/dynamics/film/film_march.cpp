@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "film_march.hpp"
+#include "core/dense/solve.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 
 namespace clatter::film {
@@ -121,7 +121,7 @@ bool Flight::solve_stage(const dynamics::Stage& stage, const Eigen::VectorXd& y_
         y_new - y_before - kappa * v_before - compliance.cwiseProduct(response_.force);
     const Eigen::MatrixXd jacobian =
         Eigen::MatrixXd::Identity(y.size(), y.size()) - compliance.asDiagonal() * response_.tangent;
-    const Eigen::VectorXd change = jacobian.partialPivLu().solve(residual);
+    const Eigen::VectorXd change = dense::solve(jacobian, residual);
     if (change.norm() < 1e-15) {
       a_new = response_.force.cwiseQuotient(mass);
       force = response_.force;

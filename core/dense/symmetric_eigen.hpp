@@ -3,22 +3,27 @@
 // Eigenvalues of dense symmetric matrices by LAPACK, with all BLAS threads.
 #include <Eigen/Core>
 
-namespace clatter::sparse {
+namespace clatter::dense {
 
 /// A X = X diag(values) or A X = B X diag(values), values ascending; X is orthonormal (in B).
-struct DenseEigen {
-  Eigen::VectorXd values;
-  Eigen::MatrixXd vectors;  // empty when only values were requested
+struct Eigenpairs {
+  Eigen::VectorXd values;   // n; all NaN without ok
+  Eigen::MatrixXd vectors;  // n x n, the same; empty when only values were requested
   bool ok = false;          // false: not finite, or B is not positive definite
 };
 
 enum class EigenParts { kValues, kVectors };
 
 /// Divide and conquer (LAPACK dsyevd). Reads the lower triangle of A, n x n.
-DenseEigen symmetric_eigen(const Eigen::MatrixXd& A, EigenParts parts = EigenParts::kVectors);
+Eigenpairs symmetric_eigen(Eigen::MatrixXd A, EigenParts parts = EigenParts::kVectors);
 
 /// The same for the pencil (A, B), B positive definite (LAPACK dsygvd).
-DenseEigen symmetric_eigen(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B,
+Eigenpairs symmetric_eigen(Eigen::MatrixXd A, Eigen::MatrixXd B,
                            EigenParts parts = EigenParts::kVectors);
 
-}  // namespace clatter::sparse
+/// The same for a tridiagonal matrix (LAPACK dstevd).
+/// @param diagonal n
+/// @param below n - 1, beside the diagonal
+Eigenpairs tridiagonal_eigen(Eigen::VectorXd diagonal, Eigen::VectorXd below);
+
+}  // namespace clatter::dense

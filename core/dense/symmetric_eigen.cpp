@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/dense/symmetric_eigen.hpp"
+
+#include "core/dense/lapack_call.hpp"
+
+namespace clatter::dense {
+namespace {
+
+/// Common part of all drivers; LAPACK may not terminate on values that are not finite.
+template <class Driver>
+Eigenpairs solve(Eigen::MatrixXd A, bool finite, EigenParts parts, Driver&& driver) {
+  Eigenpairs out;
+  const Eigen::Index n = A.rows();
+  out.vectors = std::move(A);
+  out.values.resize(n);
+  const char job = parts == EigenParts::kVectors ? 'V' : 'N';
+  int info = finite ? 0 : -1;
+  if (finite && n > 0) driver(job, lapack_size(n), out, info);
+  out.ok = info == 0;
+  if (!out.ok) {
+    out.values = no_answer(n, 1);
+    out.vectors = no_answer(n, n);
+  }
+  if (parts == EigenParts::kValues) out.vectors.resize(0, 0);
+  return out;
+}
+
+}  // namespace
+
+Eigenpairs symmetric_eigen(Eigen::MatrixXd A, EigenParts parts) {
+  const bool finite = A.allFinite();
+  return solve(std::move(A), finite, parts, [](char job, int n, Eigenpairs& out, int& info) {
+    with_workspaces([&](double* work, const int* lwork, int* iwork, const int* liwork) {
+      LAPACK_dsyevd(&job, "L", &n, out.vectors.data(), &n, out.values.data(), work, lwork, iwork,
+                    liwork, &info);
+    });
+  });
+}
+
+Eigenpairs symmetric_eigen(Eigen::MatrixXd A, Eigen::MatrixXd B, EigenParts parts) {
+  const bool finite = A.allFinite() && B.allFinite();
+  return solve(std::move(A), finite, parts, [&](char job, int n, Eigenpairs& out, int& info) {
+    const int type = 1;
+    with_workspaces([&](double* work, const int* lwork, int* iwork, const int* liwork) {
+      LAPACK_dsygvd(&type, &job, "L", &n, out.vectors.data(), &n, B.data(), &n, out.values.data(),
+                    work, lwork, iwork, liwork, &info);
+    });
+  });
+}
+
+Eigenpairs tridiagonal_eigen(Eigen::VectorXd diagonal, Eigen::VectorXd below) {
+  const bool finite = diagonal.allFinite() && below.allFinite();
+  const Eigen::Index n = diagonal.size();
+  below.conservativeResize(std::max<Eigen::Index>(n, 1));  // what LAPACK leaves free
+  return solve(
+      Eigen::MatrixXd(n, n), finite, EigenParts::kVectors,
+      [&](char job, int size, Eigenpairs& out, int& info) {
+        with_workspaces([&](double* work, const int* lwork, int* iwork, const int* liwork) {
+          LAPACK_dstevd(&job, &size, diagonal.data(), below.data(), out.vectors.data(), &size, work,
+                        lwork, iwork, liwork, &info);
+        });
+        out.values = diagonal;
+      });
+}
+
+}  // namespace clatter::dense
