@@ -17,6 +17,7 @@ BUILD = pathlib.Path(os.environ.get("CLATTER_BUILD", SOURCE / "build/release"))
 # Libraries: each folder of core/ is one, and may use these of the others.
 LIBRARIES = {
     "core/base": set(),
+    "core/keys": {"core/base"},
     "core/mesh": {"core/base"},
     "core/rom": {"core/base"},
     "core/run": set(),

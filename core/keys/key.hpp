@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// What is known of one key of a TOML table, as data: readers, --help, the pages docs/keys and the
+// schemas for editors all come from it.
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/base/config.hpp"
+#include "core/keys/key_units.hpp"
+
+namespace clatter::keys {
+
+class Table;
+
+enum class Type {
+  kNumber,
+  kInteger,
+  kFlag,     // true or false
+  kText,     // any text
+  kChoice,   // one of the texts `choices`
+  kPath,     // of a file to read, relative to the TOML file
+  kNumbers,  // a list
+  kTexts,    // a list
+  kTable,    // a table of its own
+  kTables,   // [[tables]]
+  kNamed,    // a table whose keys are names, each with a table
+  kEither,   // several of them: `shape` says which
+};
+
+/// When a key may or must be given, by another key of its table.
+struct Rule {
+  enum class Kind {
+    kExcludes,      // not together with `other`
+    kNeeds,         // only together with `other`; with `value` only where `other` has this value
+    kRequiredWith,  // must be there where `other` is, with `value` where it has this value
+  };
+  Kind kind;
+  std::string other;
+  std::string value;   // of a choice, "true" or "false"; "": whatever it is
+  std::string reason;  // completes the message; may be empty
+};
+
+struct Key {
+  std::string name;
+  Type type = Type::kNumber;
+  std::string meaning;  // one sentence without a full stop
+  KeyUnit unit;         // of numbers
+  Range range;          // of numbers, in the key's unit
+  size_t count = 0;     // of lists: exactly so many; 0: any
+  std::vector<std::string> choices;
+  std::string shape;     // of kEither, as the reference prints it
+  std::string standard;  // the default as TOML; "": none
+  bool required = false;
+  std::vector<Rule> rules;
+  const Table* table = nullptr;  // of kTable, kTables and kNamed
+
+  size_t offset = 0;  // of the member in the struct
+  /// Sets the member at `member` where `table` has the key.
+  std::function<void(const Key& key, const Config& table, std::byte* member)> read;
+  /// The member as TOML; "" for what no file can give. Empty for tables.
+  std::function<std::string(const Key& key, const std::byte* member)> written;
+};
+
+}  // namespace clatter::keys

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Keys as data: one row a key fills one member of a struct.
+//
+//   struct Spring { double rate = 0.0; double length = 0.1; bool is_guided = false; };  // SI
+//
+//   const Keys<Spring>& spring_keys() {
+//     static const Keys<Spring> keys("spring", "a coil spring", [](auto& key, Spring& spring) {
+//       key.number("rate_n_m", spring.rate, Range::positive(), "force over deflection").required();
+//       key.number("length_mm", spring.length, Range::between(1.0, 1e4), "without force");
+//       key.flag("guided", spring.is_guided, "a rod keeps it straight");
+//     });
+//     return keys;
+//   }
+//
+//   const Spring spring = spring_keys().read(config.table("spring"));
+//
+// A row gives the name, whose end is the unit (key_units.hpp); the member, which gets SI; the range
+// in the key's unit; the meaning. The default is what the struct has. Rules between keys are said
+// by required(), needs(), excludes(), required_with(); what they cannot say is a check().
+#include <Eigen/Core>
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/keys/table.hpp"
+
+namespace clatter::keys {
+
+/// The row that was added last, for what not every key has.
+class Row {
+ public:
+  explicit Row(Key& key) : key_(key) {}
+  /// The table is refused without this key.
+  Row& required();
+  /// Refused without the key `other`, or where that choice or flag has another value.
+  Row& needs(std::string other, std::string value = "", std::string reason = "");
+  Row& excludes(std::string other, std::string reason = "");
+  /// Refused without this key where `other` is given, or has this value.
+  Row& required_with(std::string other, std::string value = "");
+  /// The unit as shown, where the name's end has two meanings: N m, not N/m.
+  Row& shown_in(std::string unit);
+  /// The member gets `factor` times the value: 0.5 for a radius given as a diameter.
+  Row& times(double factor);
+
+ private:
+  Key& key_;
+};
+
+/// Rows that do not depend on the struct: members are known by their offset in it.
+class Rows {
+ public:
+  Rows(Table& table, const void* standard, size_t size)
+      : table_(table), standard_(static_cast<const std::byte*>(standard)), size_(size) {}
+
+  Row number(std::string name, double& at, Range range, std::string meaning);
+  /// Absent without the key.
+  Row number(std::string name, std::optional<double>& at, Range range, std::string meaning);
+  Row integer(std::string name, int& at, Range range, std::string meaning);
+  Row flag(std::string name, bool& at, std::string meaning);
+  Row text(std::string name, std::string& at, std::string meaning);
+  Row path(std::string name, std::filesystem::path& at, std::string meaning);
+  Row numbers(std::string name, std::vector<double>& at, Range each, std::string meaning);
+  Row texts(std::string name, std::vector<std::string>& at, std::string meaning);
+  Row vector(std::string name, Eigen::Vector3d& at, Range each, std::string meaning);
+  Row vector(std::string name, std::optional<Eigen::Vector3d>& at, Range each, std::string meaning);
+  /// Three numbers that are not all 0; the member gets length 1.
+  Row direction(std::string name, Eigen::Vector3d& at, std::string meaning);
+
+ protected:
+  size_t offset_of(const void* member) const;
+  Key& add(std::string name, Type type, const void* member, std::string meaning);
+  /// `values` are those of the choices, byte by byte.
+  Row add_choice(std::string name, const void* member, std::vector<std::string> choices,
+                 std::vector<std::byte> values, std::string meaning);
+
+  Table& table_;
+  const std::byte* standard_;
+  size_t size_;
+};
+
+/// The keys of a TOML table that fills a struct S; S() or `standard` has the defaults.
+template <class S>
+class Keys : private Rows {
+ public:
+  /// `describe(key, s)` adds the rows by calls of `key`, with members of `s`.
+  template <class Describe>
+  Keys(std::string name, std::string meaning, const Describe& describe, S standard = S())
+      : Rows(data_, &standard_, sizeof(S)),
+        data_(std::move(name), std::move(meaning)),
+        standard_(std::move(standard)) {
+    describe(*this, standard_);
+    data_.write_standards(reinterpret_cast<const std::byte*>(&standard_));
+  }
+  Keys(const Keys&) = delete;
+  Keys& operator=(const Keys&) = delete;
+
+  const Table& table() const { return data_; }
+  const S& standard() const { return standard_; }
+
+  /// As Table::read(), with the checks.
+  S read(const Config& config) const {
+    S result = standard_;
+    read(config, result);
+    return result;
+  }
+  /// The same over values that `result` has already.
+  void read(const Config& config, S& result) const {
+    data_.read(config, reinterpret_cast<std::byte*>(&result));
+    for (const auto& check : checks_) check(config, result);
+  }
+
+  using Rows::direction;
+  using Rows::flag;
+  using Rows::integer;
+  using Rows::number;
+  using Rows::numbers;
+  using Rows::path;
+  using Rows::text;
+  using Rows::texts;
+  using Rows::vector;
+
+  /// A text of which each stands for a value.
+  template <class E>
+  Row choice(std::string name, E& at,
+             std::initializer_list<std::pair<const char*, std::type_identity_t<E>>> choices,
+             std::string meaning) {
+    static_assert(std::is_trivially_copyable_v<E>);
+    std::vector<std::string> names;
+    std::vector<std::byte> values;
+    for (const auto& [text, value] : choices) {
+      names.emplace_back(text);
+      const auto* bytes = reinterpret_cast<const std::byte*>(&value);
+      values.insert(values.end(), bytes, bytes + sizeof(E));
+    }
+    return add_choice(std::move(name), &at, std::move(names), std::move(values),
+                      std::move(meaning));
+  }
+
+  /// A table of its own; its struct keeps its defaults without it.
+  template <class T>
+  Row table(std::string name, T& at, const Keys<T>& keys, std::string meaning = "") {
+    return sub(std::move(name), Type::kTable, &at, keys, std::move(meaning),
+               [&keys](const Config& parent, const std::string& key, T& member) {
+                 if (const auto found = parent.find_table(key)) keys.read(*found, member);
+               });
+  }
+  /// Absent without the table.
+  template <class T>
+  Row table(std::string name, std::optional<T>& at, const Keys<T>& keys, std::string meaning = "") {
+    return sub(std::move(name), Type::kTable, &at, keys, std::move(meaning),
+               [&keys](const Config& parent, const std::string& key, std::optional<T>& member) {
+                 if (const auto found = parent.find_table(key)) member = keys.read(*found);
+               });
+  }
+  /// [[tables]], none or more.
+  template <class T>
+  Row tables(std::string name, std::vector<T>& at, const Keys<T>& keys, std::string meaning = "") {
+    return sub(std::move(name), Type::kTables, &at, keys, std::move(meaning),
+               [&keys](const Config& parent, const std::string& key, std::vector<T>& member) {
+                 for (const Config& one : parent.tables(key)) member.push_back(keys.read(one));
+               });
+  }
+  /// A key with a reader of its own: read(config, key, member) is called when the key is there.
+  /// `shape` says what may be written: "a number or a list of numbers".
+  template <class T, class Read>
+  Row value(std::string name, T& at, std::string shape, std::string meaning, const Read& read) {
+    Key& key = add(std::move(name), Type::kEither, &at, std::move(meaning));
+    key.shape = std::move(shape);
+    key.read = [read](const Key& row, const Config& config, std::byte* member) {
+      if (config.has(row.name)) read(config, row.name, *reinterpret_cast<T*>(member));
+    };
+    return Row(key);
+  }
+
+  /// All keys of another struct, in this table.
+  template <class T>
+  void part(T& at, const Keys<T>& keys) {
+    const size_t offset = offset_of(&at);
+    for (Key key : keys.table().keys()) {
+      key.offset += offset;
+      data_.keys_.push_back(std::move(key));
+    }
+    for (const auto& group : keys.table().alternatives()) data_.alternatives_.push_back(group);
+    for (const auto& one : keys.checks_)
+      checks_.push_back([one, offset](const Config& config, S& s) {
+        one(config, *reinterpret_cast<T*>(reinterpret_cast<std::byte*>(&s) + offset));
+      });
+  }
+
+  /// Exactly one of these keys is given.
+  void one_of(std::vector<std::string> names) { data_.alternatives_.push_back(std::move(names)); }
+  /// Other readers take further keys of the same TOML table: unknown ones are theirs to refuse.
+  void shared() { data_.shared_ = true; }
+  /// check(config, s) is called after all keys were read: it fails for values that do not go
+  /// together, and may set members that follow from several keys.
+  void check(std::function<void(const Config&, S&)> check) { checks_.push_back(std::move(check)); }
+
+ private:
+  template <class T>
+  friend class Keys;
+
+  template <class M, class T, class Read>
+  Row sub(std::string name, Type type, M* at, const Keys<T>& keys, std::string meaning,
+          const Read& read) {
+    Key& key = add(std::move(name), type, at, meaning.empty() ? keys.table().meaning() : meaning);
+    key.table = &keys.table();
+    key.read = [read](const Key& row, const Config& config, std::byte* member) {
+      read(config, row.name, *reinterpret_cast<M*>(member));
+    };
+    return Row(key);
+  }
+
+  Table data_;
+  S standard_;
+  std::vector<std::function<void(const Config&, S&)>> checks_;
+};
+
+}  // namespace clatter::keys

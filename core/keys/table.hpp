@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The keys of one TOML table, without the type of the struct that they fill: see keys.hpp.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/keys/key.hpp"
+
+namespace clatter::keys {
+
+/// The condition of a rule as it would be written: law, or law = "vogel".
+std::string condition(const Key* other, const Rule& rule);
+
+class Table {
+ public:
+  Table(std::string name, std::string meaning)
+      : name_(std::move(name)), meaning_(std::move(meaning)) {}
+
+  const std::string& name() const { return name_; }
+  const std::string& meaning() const { return meaning_; }
+  const std::vector<Key>& keys() const { return keys_; }
+  /// Groups of keys of which exactly one is given.
+  const std::vector<std::vector<std::string>>& alternatives() const { return alternatives_; }
+  /// nullptr when the table has no key of this name.
+  const Key* find(std::string_view name) const;
+
+  /// Reads all keys into the struct at `object`, whose values before are the defaults. InputError
+  /// "file:line: key: ..." for an unknown key of the table, with the nearest name; for keys that
+  /// exclude or need each other, or lack; and for values outside their range.
+  void read(const Config& table, std::byte* object) const;
+
+ private:
+  friend class Rows;
+  template <class S>
+  friend class Keys;
+  void check_rules(const Config& table, const std::byte* object) const;
+  bool holds(const Rule& rule, const Config& table, const std::byte* object) const;
+
+  void write_standards(const std::byte* standard);
+
+  std::string name_, meaning_;
+  std::vector<Key> keys_;
+  std::vector<std::vector<std::string>> alternatives_;
+  bool shared_ = false;  // other readers take further keys of the same TOML table
+};
+
+}  // namespace clatter::keys
