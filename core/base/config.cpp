@@ -59,6 +59,10 @@ Config::Config(std::shared_ptr<Document> document, std::shared_ptr<Node> node)
 
 std::string Config::where() const { return position_in_file(document_->origin, node_->table); }
 
+std::string Config::where_named() const {
+  return where() + ": " + node_->prefix.substr(0, node_->prefix.size() - 1);
+}
+
 std::string Config::where(std::string_view key) const {
   if (const auto below = fallback_of(key)) return below->where(key);
   const toml::node* at = node_->table->get(key);

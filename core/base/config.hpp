@@ -84,6 +84,8 @@ class Config {
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
   /// Position of this table for messages: "file:line".
   std::string where() const;
+  /// The same with its name: "file:line: bushing[0].a".
+  std::string where_named() const;
   /// Position of a key for messages, "file:line: table.key"; of the table when it is absent.
   std::string where(std::string_view key) const;
 

@@ -62,13 +62,15 @@ const char* name_of(Rule::Kind kind) {
       return "needs";
     case Rule::Kind::kRequiredWith:
       return "required_with";
+    case Rule::Kind::kAsMany:
+      return "as_many_as";
   }
   return "";
 }
 
 std::string json_of(const Rule& rule) {
   JsonMembers members{{"kind", json_text(name_of(rule.kind))}, {"other", json_text(rule.other)}};
-  if (!rule.value.empty()) members.emplace_back("value", json_text(rule.value));
+  if (!rule.values.empty()) members.emplace_back("values", json_texts(rule.values));
   if (!rule.reason.empty()) members.emplace_back("reason", json_text(rule.reason));
   return json_object(members);
 }
@@ -87,6 +89,7 @@ std::string json_of(const Key& key) {
   if (!key.shape.empty()) add("shape", json_text(key.shape));
   if (!key.standard.empty()) add("default", json_text(key.standard));
   if (key.required) add("required", "true");
+  if (key.ascending) add("ascending", "true");
   if (!key.rules.empty()) {
     std::vector<std::string> rules;
     for (const Rule& rule : key.rules) rules.push_back(json_of(rule));
@@ -125,7 +128,9 @@ std::string kind_text(const Key& key) {
     case Type::kPath:
       return "path of a file";
     case Type::kNumbers:
-      return key.count > 0 ? fmt::format("list of {} numbers", key.count) : "list of numbers";
+      return fmt::format("list of {}{}numbers{}",
+                         key.count > 0 ? fmt::format("{} ", key.count) : "",
+                         key.ascending ? "ascending " : "", range_text(key.range));
     case Type::kTexts:
       return "list of texts";
     case Type::kTable:
@@ -150,6 +155,8 @@ std::string rule_text(const Table& table, const Rule& rule) {
       return "only with " + other + because;
     case Rule::Kind::kRequiredWith:
       return "required with " + other + because;
+    case Rule::Kind::kAsMany:
+      return "as many as " + other;
   }
   return "";
 }

@@ -11,7 +11,7 @@ namespace clatter::keys {
 
 /// The table with all below it, as one JSON object: name, meaning, one_of, and keys with name,
 /// type, unit, min, max, above (the least value itself is refused), count, choices, default,
-/// required, rules, meaning, shape, table.
+/// required, ascending, rules, meaning, shape, table.
 std::string json_of(const Table& table);
 
 /// A line or two for each key: "  bore_mm  number above 0, required: diameter of the bore".

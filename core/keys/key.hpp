@@ -33,13 +33,14 @@ enum class Type {
 struct Rule {
   enum class Kind {
     kExcludes,      // not together with `other`
-    kNeeds,         // only together with `other`; with `value` only where `other` has this value
-    kRequiredWith,  // must be there where `other` is, with `value` where it has this value
+    kNeeds,         // only together with `other`; with `values` only where `other` has one of them
+    kRequiredWith,  // must be there where `other` is, with `values` where it has one of them
+    kAsMany,        // a list as long as the list `other`
   };
   Kind kind;
   std::string other;
-  std::string value;   // of a choice, "true" or "false"; "": whatever it is
-  std::string reason;  // completes the message; may be empty
+  std::vector<std::string> values;  // of a choice, "true" or "false"; none: whatever it is
+  std::string reason;               // completes the message; may be empty
 };
 
 struct Key {
@@ -53,8 +54,12 @@ struct Key {
   std::string shape;     // of kEither, as the reference prints it
   std::string standard;  // the default as TOML; "": none
   bool required = false;
+  bool ascending = false;  // of lists of numbers
   std::vector<Rule> rules;
   const Table* table = nullptr;  // of kTable, kTables and kNamed
+
+  /// Without it the struct's value holds; not where a rule may require the key.
+  bool has_standard() const;
 
   size_t offset = 0;  // of the member in the struct
   /// Sets the member at `member` where `table` has the key.

@@ -19,6 +19,7 @@
 // in the key's unit; the meaning. The default is what the struct has. Rules between keys are said
 // by required(), needs(), excludes(), required_with(); what they cannot say is a check().
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
@@ -33,19 +34,34 @@
 
 namespace clatter::keys {
 
+/// Values of a choice or flag that a rule names: "vogel", or {"vogel", "walther"}; {}: any.
+struct Values : std::vector<std::string> {
+  Values() = default;
+  Values(const char* value) : vector{value} {}
+  Values(std::initializer_list<const char*> values) : vector(values.begin(), values.end()) {}
+};
+
 /// The row that was added last, for what not every key has.
 class Row {
  public:
   explicit Row(Key& key) : key_(key) {}
-  /// The table is refused without this key.
+  /// The table is refused without this key; of tables, with none of them.
   Row& required();
   /// Refused without the key `other`, or where that choice or flag has another value.
-  Row& needs(std::string other, std::string value = "", std::string reason = "");
+  Row& needs(std::string other, Values values = {}, std::string reason = "");
   Row& excludes(std::string other, std::string reason = "");
-  /// Refused without this key where `other` is given, or has this value.
-  Row& required_with(std::string other, std::string value = "");
+  /// Refused without this key where `other` is given, or has one of these values.
+  Row& required_with(std::string other, Values values = {});
+  /// Both: a key of that choice alone, which cannot do without.
+  Row& of(const std::string& other, const Values& values = {});
+  /// A list as long as the list `other`.
+  Row& as_many_as(std::string other);
+  /// A list of numbers, each above the one before.
+  Row& ascending();
   /// The unit as shown, where the name's end has two meanings: N m, not N/m.
   Row& shown_in(std::string unit);
+  /// The member keeps the number in the key's unit.
+  Row& unconverted();
   /// The member gets `factor` times the value: 0.5 for a radius given as a diameter.
   Row& times(double factor);
 
@@ -60,22 +76,38 @@ class Rows {
       : table_(table), standard_(static_cast<const std::byte*>(standard)), size_(size) {}
 
   Row number(std::string name, double& at, Range range, std::string meaning);
-  /// Absent without the key.
+  /// Optional members are absent without the key, unless they have a value as a default.
   Row number(std::string name, std::optional<double>& at, Range range, std::string meaning);
   Row integer(std::string name, int& at, Range range, std::string meaning);
+  Row integer(std::string name, std::optional<int>& at, Range range, std::string meaning);
   Row flag(std::string name, bool& at, std::string meaning);
+  Row flag(std::string name, std::optional<bool>& at, std::string meaning);
   Row text(std::string name, std::string& at, std::string meaning);
   Row path(std::string name, std::filesystem::path& at, std::string meaning);
   Row numbers(std::string name, std::vector<double>& at, Range each, std::string meaning);
+  /// One number, or a list of them.
+  Row one_or_more(std::string name, std::vector<double>& at, Range each, std::string meaning);
   Row texts(std::string name, std::vector<std::string>& at, std::string meaning);
-  Row vector(std::string name, Eigen::Vector3d& at, Range each, std::string meaning);
+  /// As many numbers as the member has.
+  template <int n>
+  Row vector(std::string name, Eigen::Matrix<double, n, 1>& at, Range each, std::string meaning) {
+    return fixed(std::move(name), at.data(), static_cast<size_t>(n), each, std::move(meaning));
+  }
+  template <size_t n>
+  Row vector(std::string name, std::array<double, n>& at, Range each, std::string meaning) {
+    return fixed(std::move(name), at.data(), n, each, std::move(meaning));
+  }
   Row vector(std::string name, std::optional<Eigen::Vector3d>& at, Range each, std::string meaning);
   /// Three numbers that are not all 0; the member gets length 1.
   Row direction(std::string name, Eigen::Vector3d& at, std::string meaning);
 
  protected:
   size_t offset_of(const void* member) const;
+  /// Index of a text among the choices of a key.
+  static size_t choice_of(const Key& key, const Config& table, const std::string& text);
   Key& add(std::string name, Type type, const void* member, std::string meaning);
+  /// `count` numbers, the first of which is at `at`.
+  Row fixed(std::string name, const double* at, size_t count, Range each, std::string meaning);
   /// `values` are those of the choices, byte by byte.
   Row add_choice(std::string name, const void* member, std::vector<std::string> choices,
                  std::vector<std::byte> values, std::string meaning);
@@ -121,12 +153,42 @@ class Keys : private Rows {
   using Rows::integer;
   using Rows::number;
   using Rows::numbers;
+  using Rows::one_or_more;
   using Rows::path;
   using Rows::text;
   using Rows::texts;
   using Rows::vector;
 
-  /// A text of which each stands for a value.
+  /// The member gets "file:line" of the table for messages of later checks, or with `key`
+  /// "file:line: table.key" of that key.
+  void where(std::string& at, std::string key = "") {
+    checks_.push_back([offset = offset_of(&at), key](const Config& config, S& s) {
+      *reinterpret_cast<std::string*>(reinterpret_cast<std::byte*>(&s) + offset) =
+          key.empty() ? config.where() : config.where(key);
+    });
+  }
+
+  /// A text of which each stands for a value; an optional member is absent without the key.
+  template <class E>
+  Row choice(std::string name, std::optional<E>& at,
+             std::initializer_list<std::pair<const char*, std::type_identity_t<E>>> choices,
+             std::string meaning) {
+    std::vector<std::pair<std::string, E>> known(choices.begin(), choices.end());
+    Key& key = add(std::move(name), Type::kChoice, &at, std::move(meaning));
+    for (const auto& one : known) key.choices.push_back(one.first);
+    key.read = [known](const Key& row, const Config& config, std::byte* member) {
+      if (row.required || config.has(row.name))
+        *reinterpret_cast<std::optional<E>*>(member) =
+            known[choice_of(row, config, config.text(row.name))].second;
+    };
+    key.written = [known](const Key&, const std::byte* member) {
+      const auto& value = *reinterpret_cast<const std::optional<E>*>(member);
+      for (const auto& one : known)
+        if (value && *value == one.second) return "\"" + one.first + "\"";
+      return std::string();
+    };
+    return Row(key);
+  }
   template <class E>
   Row choice(std::string name, E& at,
              std::initializer_list<std::pair<const char*, std::type_identity_t<E>>> choices,
@@ -147,24 +209,27 @@ class Keys : private Rows {
   template <class T>
   Row table(std::string name, T& at, const Keys<T>& keys, std::string meaning = "") {
     return sub(std::move(name), Type::kTable, &at, keys, std::move(meaning),
-               [&keys](const Config& parent, const std::string& key, T& member) {
-                 if (const auto found = parent.find_table(key)) keys.read(*found, member);
+               [&keys](const Config& parent, const Key& key, T& member) {
+                 if (key.required || parent.has(key.name))
+                   keys.read(parent.table(key.name), member);
                });
   }
   /// Absent without the table.
   template <class T>
   Row table(std::string name, std::optional<T>& at, const Keys<T>& keys, std::string meaning = "") {
     return sub(std::move(name), Type::kTable, &at, keys, std::move(meaning),
-               [&keys](const Config& parent, const std::string& key, std::optional<T>& member) {
-                 if (const auto found = parent.find_table(key)) member = keys.read(*found);
+               [&keys](const Config& parent, const Key& key, std::optional<T>& member) {
+                 if (parent.has(key.name)) member = keys.read(parent.table(key.name));
                });
   }
   /// [[tables]], none or more.
   template <class T>
   Row tables(std::string name, std::vector<T>& at, const Keys<T>& keys, std::string meaning = "") {
     return sub(std::move(name), Type::kTables, &at, keys, std::move(meaning),
-               [&keys](const Config& parent, const std::string& key, std::vector<T>& member) {
-                 for (const Config& one : parent.tables(key)) member.push_back(keys.read(one));
+               [&keys](const Config& parent, const Key& key, std::vector<T>& member) {
+                 for (const Config& one : parent.tables(key.name)) member.push_back(keys.read(one));
+                 if (key.required && member.empty())
+                   parent.fail(key.name, "found none, expected at least one table");
                });
   }
   /// A key with a reader of its own: read(config, key, member) is called when the key is there.
@@ -194,6 +259,15 @@ class Keys : private Rows {
       });
   }
 
+  /// All rows that `add()` adds need `other`, as Row::needs() says.
+  template <class Add>
+  void all_need(const std::string& other, const Values& values, const std::string& reason,
+                const Add& add) {
+    const size_t first = data_.keys_.size();
+    add();
+    for (size_t k = first; k < data_.keys_.size(); ++k)
+      Row(data_.keys_[k]).needs(other, values, reason);
+  }
   /// Exactly one of these keys is given.
   void one_of(std::vector<std::string> names) { data_.alternatives_.push_back(std::move(names)); }
   /// Other readers take further keys of the same TOML table: unknown ones are theirs to refuse.
@@ -212,7 +286,7 @@ class Keys : private Rows {
     Key& key = add(std::move(name), type, at, meaning.empty() ? keys.table().meaning() : meaning);
     key.table = &keys.table();
     key.read = [read](const Key& row, const Config& config, std::byte* member) {
-      read(config, row.name, *reinterpret_cast<M*>(member));
+      read(config, row, *reinterpret_cast<M*>(member));
     };
     return Row(key);
   }

@@ -11,6 +11,16 @@ namespace {
 
 std::string because(const std::string& reason) { return reason.empty() ? "" : ": " + reason; }
 
+size_t length_of(const Config& table, const Key& list) {
+  if (!table.has(list.name)) return 0;
+  return list.type == Type::kTexts ? table.texts(list.name).size()
+                                   : table.numbers(list.name).size();
+}
+
+bool is_empty_list(const Config& table, const Key& key) {
+  return (key.type == Type::kNumbers || key.type == Type::kTexts) && length_of(table, key) == 0;
+}
+
 std::string in_toml(const Key* key, const std::string& value) {
   return key != nullptr && key->type == Type::kChoice ? "\"" + value + "\"" : value;
 }
@@ -18,8 +28,16 @@ std::string in_toml(const Key* key, const std::string& value) {
 }  // namespace
 
 std::string condition(const Key* other, const Rule& rule) {
-  return rule.value.empty() ? rule.other
-                            : fmt::format("{} = {}", rule.other, in_toml(other, rule.value));
+  if (rule.values.empty()) return rule.other;
+  std::vector<std::string> values;
+  for (const std::string& value : rule.values) values.push_back(in_toml(other, value));
+  return fmt::format("{} = {}", rule.other, fmt::join(values, " or "));
+}
+
+bool Key::has_standard() const {
+  return !required && std::none_of(rules.begin(), rules.end(), [](const Rule& rule) {
+    return rule.kind == Rule::Kind::kRequiredWith;
+  });
 }
 
 const Key* Table::find(std::string_view name) const {
@@ -29,10 +47,12 @@ const Key* Table::find(std::string_view name) const {
 }
 
 bool Table::holds(const Rule& rule, const Config& table, const std::byte* object) const {
-  if (rule.value.empty()) return table.has(rule.other);
+  if (rule.values.empty()) return table.has(rule.other);
   const Key* other = find(rule.other);
-  return other != nullptr && other->written &&
-         other->written(*other, object + other->offset) == in_toml(other, rule.value);
+  if (other == nullptr || !other->written) return false;
+  const std::string is = other->written(*other, object + other->offset);
+  return std::any_of(rule.values.begin(), rule.values.end(),
+                     [&](const std::string& value) { return is == in_toml(other, value); });
 }
 
 void Table::check_rules(const Config& table, const std::byte* object) const {
@@ -45,8 +65,15 @@ void Table::check_rules(const Config& table, const std::byte* object) const {
                                          because(rule.reason)));
       if (rule.kind == Rule::Kind::kNeeds && given && !is_so)
         table.fail(key.name, fmt::format("needs {}{}", other, because(rule.reason)));
-      if (rule.kind == Rule::Kind::kRequiredWith && !given && is_so)
+      const bool lacks = !given || is_empty_list(table, key);
+      if (rule.kind == Rule::Kind::kRequiredWith && lacks && is_so)
         table.fail(key.name, fmt::format("is missing, {} needs it{}", other, because(rule.reason)));
+      if (rule.kind == Rule::Kind::kAsMany && given) {
+        const size_t found = length_of(table, key), wanted = length_of(table, *find(rule.other));
+        if (found != wanted)
+          table.fail(key.name, fmt::format("found {} values, expected as many as {}, {}", found,
+                                           rule.other, wanted));
+      }
     }
   }
   for (const std::vector<std::string>& group : alternatives_) {
@@ -59,16 +86,29 @@ void Table::check_rules(const Config& table, const std::byte* object) const {
   }
 }
 
-void Table::read(const Config& table, std::byte* object) const {
+void Table::add(std::string name, Type type, const Table& table) {
+  Key& key = keys_.emplace_back();
+  key.name = std::move(name);
+  key.type = type;
+  key.meaning = table.meaning();
+  key.table = &table;
+}
+
+void Table::check_known(const Config& table) const {
   for (const Key& key : keys_) table.has(key.name);
-  if (!shared_) table.finish_table();
-  for (const Key& key : keys_) key.read(key, table, object + key.offset);
+  table.finish_table();
+}
+
+void Table::read(const Config& table, std::byte* object) const {
+  if (!shared_) check_known(table);
+  for (const Key& key : keys_)
+    if (key.read) key.read(key, table, object + key.offset);
   check_rules(table, object);
 }
 
 void Table::write_standards(const std::byte* standard) {
   for (Key& key : keys_)
-    if (key.written) key.standard = key.required ? "" : key.written(key, standard + key.offset);
+    if (key.written && key.has_standard()) key.standard = key.written(key, standard + key.offset);
 }
 
 }  // namespace clatter::keys

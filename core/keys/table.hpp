@@ -9,7 +9,7 @@
 
 namespace clatter::keys {
 
-/// The condition of a rule as it would be written: law, or law = "vogel".
+/// The condition of a rule as it would be written: law, law = "vogel", law = "vogel" or "walther".
 std::string condition(const Key* other, const Rule& rule);
 
 class Table {
@@ -24,7 +24,11 @@ class Table {
   const std::vector<std::vector<std::string>>& alternatives() const { return alternatives_; }
   /// nullptr when the table has no key of this name.
   const Key* find(std::string_view name) const;
+  /// Lists a table that its owner reads, under the name that it has in this one.
+  void add(std::string name, Type type, const Table& table);
 
+  /// InputError for an unknown key of the table, with the nearest name.
+  void check_known(const Config& table) const;
   /// Reads all keys into the struct at `object`, whose values before are the defaults. InputError
   /// "file:line: key: ..." for an unknown key of the table, with the nearest name; for keys that
   /// exclude or need each other, or lack; and for values outside their range.

@@ -46,9 +46,7 @@ const Keys<Oil>& oil_keys() {
     key.number("temperature_c", oil.temperature, Range::between(-60.0, 400.0), "of the film");
     key.choice("law", oil.law, {{"constant", Law::kConstant}, {"vogel", Law::kVogel}},
                "viscosity over temperature");
-    key.number("vogel_b_k", oil.vogel_b, Range::positive(), "of Vogel's law")
-        .needs("law", "vogel")
-        .required_with("law", "vogel");
+    key.number("vogel_b_k", oil.vogel_b, Range::positive(), "of Vogel's law").of("law", "vogel");
   });
   return keys;
 }
@@ -216,6 +214,112 @@ TEST(Keys, APartHasItsKeysInTheSameTable) {
   EXPECT_DOUBLE_EQ(whole.oil.viscosity, 5e-3);
   EXPECT_DOUBLE_EQ(whole.length, 2.0);
   EXPECT_THROW(keys.read(Config::parse("vogel_b_k = 5", "a.toml")), InputError);
+}
+
+enum class Film { kNone, kMoes, kTable };
+
+struct Bearing {
+  std::string where;
+  Film film = Film::kNone;
+  std::optional<Film> start;
+  double scale = 0.0;  // 0: that of the run
+  std::optional<double> width;
+  std::array<double, 2> range{0.0, 1.0};
+  Eigen::Vector2d end = {1e-3, 2e-3};
+  std::vector<double> height, value;
+  std::vector<double> temperature;
+  std::optional<int> cells;
+  std::optional<bool> exact;
+  Oil oil;
+};
+
+const Keys<Bearing>& bearing_keys() {
+  static const Keys<Bearing> keys("bearing", "a bearing", [](auto& key, Bearing& bearing) {
+    key.where(bearing.where);
+    key.choice("film", bearing.film,
+               {{"none", Film::kNone}, {"moes", Film::kMoes}, {"table", Film::kTable}},
+               "its model");
+    key.choice("start", bearing.start, {{"none", Film::kNone}, {"moes", Film::kMoes}}, "first");
+    key.number("displacement_um", bearing.scale, Range::between(1e-9, 1e6), "error scale");
+    key.number("width_mm", bearing.width, Range::positive(), "along the axis")
+        .needs("film", {"moes", "table"})
+        .required_with("film", "moes");
+    key.vector("range_deg", bearing.range, Range::between(-360.0, 360.0), "angles").ascending();
+    key.vector("end_mm", bearing.end, Range::between(-1e3, 1e3), "of the line");
+    key.numbers("height_mm", bearing.height, Range::between(-1e3, 1e3), "heights").ascending();
+    key.numbers("relief_um", bearing.value, Range::between(0.0, 1e3), "there")
+        .as_many_as("height_mm");
+    key.one_or_more("temperature_c", bearing.temperature, Range::between(-60.0, 400.0), "there");
+    key.all_need("film", "table", "it has a grid", [&] {
+      key.integer("cells", bearing.cells, Range::between(2.0, 9.0), "around");
+      key.flag("exact", bearing.exact, "modes");
+    });
+    key.table("oil", bearing.oil, oil_keys()).required();
+  });
+  return keys;
+}
+
+std::string bearing_refusal(const std::string& text) {
+  try {
+    bearing_keys().read(Config::parse(text, "a.toml"));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Keys, ListsOptionsAndDefaultsThatNoFileGives) {
+  const Bearing absent = bearing_keys().read(Config::parse("oil = {}", "a.toml"));
+  EXPECT_EQ(absent.where, "a.toml:1");
+  EXPECT_EQ(absent.scale, 0.0);
+  EXPECT_EQ(absent.end, Eigen::Vector2d(1e-3, 2e-3));
+  EXPECT_FALSE(absent.start || absent.cells || absent.exact);
+  const Bearing given = bearing_keys().read(Config::parse(
+      "film = \"table\"\nstart = \"moes\"\ndisplacement_um = 3\nrange_deg = [0, 180]\nend_mm = [3, "
+      "4]\n"
+      "height_mm = [1, 2]\nrelief_um = [5, 6]\ntemperature_c = 80\ncells = 3\nexact = "
+      "false\noil = {}",
+      "a.toml"));
+  EXPECT_EQ(given.start, Film::kMoes);
+  EXPECT_DOUBLE_EQ(given.scale, 3e-6);
+  EXPECT_NEAR(given.range[1], 3.141592653589793, 1e-15);
+  EXPECT_EQ(given.end, Eigen::Vector2d(3e-3, 4e-3));
+  EXPECT_THAT(given.value, testing::ElementsAre(testing::DoubleEq(5e-6), testing::DoubleEq(6e-6)));
+  EXPECT_THAT(given.temperature, testing::ElementsAre(353.15));
+  EXPECT_EQ(given.cells, 3);
+  EXPECT_EQ(given.exact, false);
+  EXPECT_EQ(bearing_keys().table().find("displacement_um")->standard, "");
+  EXPECT_EQ(bearing_keys().table().find("end_mm")->standard, "[1, 2]");
+}
+
+TEST(Keys, RulesNameSeveralValuesAndLengths) {
+  EXPECT_EQ(bearing_refusal("width_mm = 3\noil = {}"),
+            "a.toml:1: width_mm: needs film = \"moes\" or \"table\"");
+  EXPECT_THAT(bearing_refusal("film = \"moes\"\noil = {}"),
+              HasSubstr("width_mm: is missing, film = \"moes\" needs it"));
+  EXPECT_EQ(bearing_refusal("film = \"table\"\nwidth_mm = 3\noil = {}"), "");
+  EXPECT_EQ(bearing_refusal("height_mm = [1, 2]\nrelief_um = [5]\noil = {}"),
+            "a.toml:2: relief_um: found 1 values, expected as many as height_mm, 2");
+  EXPECT_EQ(bearing_refusal("height_mm = [2, 1]\noil = {}"),
+            "a.toml:1: height_mm: found 1 after 2, expected ascending values");
+  EXPECT_EQ(bearing_refusal("range_deg = [90, 0]\noil = {}"),
+            "a.toml:1: range_deg: found 0 after 90, expected ascending values");
+  EXPECT_EQ(bearing_refusal("temperature_c = [80, 500]\noil = {}"),
+            "a.toml:1: temperature_c: found 500, expected at least -60 and at most 400");
+  EXPECT_EQ(bearing_refusal("start = \"table\"\noil = {}"),
+            "a.toml:1: start: found \"table\", expected one of: none, moes");
+  EXPECT_EQ(bearing_refusal("cells = 3\noil = {}"),
+            "a.toml:1: cells: needs film = \"table\": it has a grid");
+  EXPECT_THAT(bearing_refusal("film = \"table\"\ncells = 3"),
+              HasSubstr("oil: found nothing, expected a table [oil]"));
+}
+
+TEST(Keys, ATableOfAnotherOwnerIsListed) {
+  Table file("run.toml", "a scene");
+  file.add("bearing", Type::kTables, bearing_keys().table());
+  EXPECT_THAT(text_of(file, "bearing.width_mm"),
+              HasSubstr("only with film = \"moes\" or \"table\""));
+  EXPECT_THROW(file.read(Config::parse("bearings = 1", "a.toml"), nullptr), InputError);
 }
 
 }  // namespace
