@@ -33,7 +33,7 @@ STAGES = {
     "assembly": {"core/base", "core/mesh", "core/rom", "core/fe", "core/sparse"},
     "modal": set(LIBRARIES) - {"core/run", "core/sound"},
     "condense": set(LIBRARIES) - {"core/run", "core/sound"},
-    "dynamics": {"core/base", "core/rom", "core/run"},
+    "dynamics": {"core/base", "core/keys", "core/rom", "core/run"},
     "recover": {"core/base", "core/rom", "core/run", "core/sound"},
 }
 ALLOWED = LIBRARIES | STAGES
