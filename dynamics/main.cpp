@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
       kEpilog);
   clatter::dynamics::declare_run(program);
   clatter::dynamics::declare_response(program);
-  clatter::keys::add_keys_command(program, clatter::dynamics::scene_table());
+  clatter::keys::add_keys_command(program, {&clatter::dynamics::scene_table()});
   program.moved("--write-motored-cycle", "clatter motored-cycle OUT.csv --bore-mm ...");
   return program.run(argc, argv);
 }

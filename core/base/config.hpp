@@ -23,6 +23,9 @@ struct Range {
   static Range between(double min, double max) { return {min, max, false}; }
 };
 
+/// What a number in a range is called: "a number above 0".
+std::string expectation(const Range& range);
+
 /// One table of a TOML file. Reading a key marks it as known; `finish()` on the root refuses all
 /// other keys. Every getter throws InputError with "file:line: key: found ..., expected ...".
 class Config {
@@ -70,6 +73,11 @@ class Config {
                                     const std::vector<std::string>& fallback) const;
   /// Path of a file to read, relative to the TOML file; InputError when it is also an output.
   std::filesystem::path path(std::string_view key) const;
+
+  /// The unit of lengths that have none in their key's name [m]; 1 until it is set, for all tables
+  /// of the file.
+  double metre() const;
+  void set_metre(double metre) const;
 
   /// The TOML files read: the file itself, then its bases.
   const std::vector<std::filesystem::path>& files() const;

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <set>
 
 #include "core/base/error.hpp"
 #include "core/base/json_line.hpp"
+#include "core/base/nearest_name.hpp"
 
 namespace clatter::keys {
 namespace {
@@ -50,6 +52,8 @@ const char* name_of(Type type) {
       return "named tables";
     case Type::kEither:
       return "either";
+    case Type::kByName:
+      return "numbers by name";
   }
   return "";
 }
@@ -87,7 +91,12 @@ std::string json_of(const Key& key) {
   if (key.count > 0) add("count", fmt::format("{}", key.count));
   if (!key.choices.empty()) add("choices", json_texts(key.choices));
   if (!key.shape.empty()) add("shape", json_text(key.shape));
-  if (!key.standard.empty()) add("default", json_text(key.standard));
+  if (!key.types.empty()) {
+    std::vector<std::string> types;
+    for (const Type type : key.types) types.emplace_back(name_of(type));
+    add("types", json_texts(types));
+  }
+  if (!key.standard.empty() && key.standard != "[]") add("default", json_text(key.standard));
   if (key.required) add("required", "true");
   if (key.ascending) add("ascending", "true");
   if (!key.rules.empty()) {
@@ -128,11 +137,12 @@ std::string kind_text(const Key& key) {
     case Type::kPath:
       return "path of a file";
     case Type::kNumbers:
-      return fmt::format("list of {}{}numbers{}",
-                         key.count > 0 ? fmt::format("{} ", key.count) : "",
-                         key.ascending ? "ascending " : "", range_text(key.range));
+      return (key.count > 0 ? fmt::format("list of {} numbers", key.count) : "list of numbers") +
+             (range_text(key.range).empty() ? "" : ", each" + range_text(key.range)) +
+             (key.ascending ? ", ascending" : "");
     case Type::kTexts:
-      return "list of texts";
+      return key.choices.empty() ? "list of texts"
+                                 : fmt::format("list of \"{}\"", fmt::join(key.choices, "\" | \""));
     case Type::kTable:
       return "table";
     case Type::kTables:
@@ -140,7 +150,9 @@ std::string kind_text(const Key& key) {
     case Type::kNamed:
       return "tables by name";
     case Type::kEither:
-      return key.shape;
+      return key.shape + range_text(key.range);
+    case Type::kByName:
+      return "numbers by name" + range_text(key.range);
   }
   return "";
 }
@@ -164,9 +176,10 @@ std::string rule_text(const Table& table, const Rule& rule) {
 std::string line_of(const Table& table, const Key& key) {
   std::string text = kind_text(key);
   if (key.required) text += ", required";
-  if (!key.standard.empty()) text += ", default " + key.standard;
+  if (!key.standard.empty() && key.standard != "[]") text += ", default " + key.standard;
   for (const Rule& rule : key.rules) text += ", " + rule_text(table, rule);
-  return fmt::format("  {:24}{}\n{:28}{}\n", key.name, key.meaning, "", text);
+  const std::string unit = key.unit.shown.empty() ? "" : " [" + key.unit.shown + "]";
+  return fmt::format("  {:24}{}{}\n{:28}{}\n", key.name, key.meaning, unit, "", text);
 }
 
 std::string under(const Table& table, const std::string& heading) {
@@ -188,10 +201,28 @@ std::string under(const Table& table, const std::string& heading) {
   return text;
 }
 
-std::string names_of(const Table& table) {
-  std::vector<std::string> names;
-  for (const Key& key : table.keys()) names.push_back(key.name);
-  return fmt::format("{}", fmt::join(names, ", "));
+/// The nearest name of a key, or all names.
+std::string nearest_of(const std::string& name, const Table& table) {
+  std::set<std::string> names;
+  for (const Key& key : table.keys()) names.insert(key.name);
+  const std::string nearest = nearest_name(name, names);
+  return nearest.empty() ? fmt::format("{}", fmt::join(names, ", ")) : nearest;
+}
+
+/// What a name of the command line means: a file of the program, or a table or key of any.
+std::string text_of(const std::vector<const Table*>& files, const std::string& name) {
+  std::string text, refused;
+  for (const Table* file : files) {
+    if (!name.empty() && name != file->name()) try {
+        text += text_of(*file, name);
+      } catch (const InputError& error) {
+        if (refused.empty()) refused = error.what();
+      }
+    else
+      text += text_of(*file);
+  }
+  if (text.empty()) throw InputError(refused);
+  return text;
 }
 
 }  // namespace
@@ -214,8 +245,8 @@ std::string text_of(const Table& table, const std::string& path) {
   const std::string name = path.substr(0, dot);
   const Key* key = table.find(name);
   if (key == nullptr)
-    throw InputError(
-        fmt::format("{}: no key of {}, which has: {}", name, table.name(), names_of(table)));
+    throw InputError(fmt::format("{}: no key of {}, did you mean {}?", name, table.name(),
+                                 nearest_of(name, table)));
   if (dot != std::string::npos && key->table == nullptr)
     throw InputError(fmt::format("{}: a key, not a table", name));
   if (dot != std::string::npos) return text_of(*key->table, path.substr(dot + 1));
@@ -223,15 +254,20 @@ std::string text_of(const Table& table, const std::string& path) {
                                : line_of(table, *key);
 }
 
-void add_keys_command(CommandLine& program, const Table& file) {
+void add_keys_command(CommandLine& program, std::vector<const Table*> files) {
+  std::vector<std::string> names;
+  for (const Table* file : files) names.push_back(file->name());
   CommandLine& line = program.command(
-      "keys", "what may be in " + file.name(),
-      "Without a name all tables, with the name of a table or table.key that part; --json prints "
-      "all of it as one line.");
+      "keys", fmt::format("Prints what may be in {}.", fmt::join(names, " and ")),
+      "Without a name all of it, with that of a table or key, window or window.taper, that part;\n"
+      "--json prints all of it as one line.");
   const auto name = std::make_shared<std::string>();
-  line.word("name", *name, "a table, or a key of it: window, window.taper");
-  line.action([&file, name](const CommonOptions& common) {
-    std::puts(common.json ? json_of(file).c_str() : text_of(file, *name).c_str());
+  line.word("name", *name, "a file, a table, or a key of it: window, window.taper");
+  line.action([files, name](const CommonOptions& common) {
+    if (!common.json) return std::fputs(text_of(files, *name).c_str(), stdout), void();
+    std::vector<std::string> all;
+    for (const Table* file : files) all.push_back(json_of(*file));
+    print_json({{"files", json_list(all)}});
   });
 }
 

@@ -10,8 +10,8 @@
 namespace clatter::keys {
 
 /// The table with all below it, as one JSON object: name, meaning, one_of, and keys with name,
-/// type, unit, min, max, above (the least value itself is refused), count, choices, default,
-/// required, ascending, rules, meaning, shape, table.
+/// type, types (of either), unit, min, max, above (the least value itself is refused), count,
+/// choices, default, required, ascending, rules, meaning, shape, table.
 std::string json_of(const Table& table);
 
 /// A line or two for each key: "  bore_mm  number above 0, required: diameter of the bore".
@@ -21,8 +21,8 @@ std::string text_of(const Table& table);
 /// InputError with the nearest names when there is no such key.
 std::string text_of(const Table& table, const std::string& path);
 
-/// Adds the command `keys` that prints what may be in the program's TOML file: all tables, one, or
-/// one key; with --json the whole as one line.
-void add_keys_command(CommandLine& program, const Table& file);
+/// Adds the command `keys` that prints what may be in the program's TOML files: all tables, one, or
+/// one key; with --json the whole as one line {"files": [...]} of json_of().
+void add_keys_command(CommandLine& program, std::vector<const Table*> files);
 
 }  // namespace clatter::keys

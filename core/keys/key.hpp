@@ -26,15 +26,16 @@ enum class Type {
   kTable,    // a table of its own
   kTables,   // [[tables]]
   kNamed,    // a table whose keys are names, each with a table
-  kEither,   // several of them: `shape` says which
+  kEither,   // several of them, `types`: `shape` says it in words
+  kByName,   // a table whose keys are names, each with a number
 };
 
 /// When a key may or must be given, by another key of its table.
 struct Rule {
   enum class Kind {
     kExcludes,      // not together with `other`
-    kNeeds,         // only together with `other`; with `values` only where `other` has one of them
-    kRequiredWith,  // must be there where `other` is, with `values` where it has one of them
+    kNeeds,         // only together with `other`, or where it has one of the values
+    kRequiredWith,  // must be there where `other` is, or where it has one of the values
     kAsMany,        // a list as long as the list `other`
   };
   Kind kind;
@@ -51,8 +52,10 @@ struct Key {
   Range range;          // of numbers, in the key's unit
   size_t count = 0;     // of lists: exactly so many; 0: any
   std::vector<std::string> choices;
-  std::string shape;     // of kEither, as the reference prints it
-  std::string standard;  // the default as TOML; "": none
+  std::vector<Type> types;  // of kEither
+  std::string shape;        // of kEither, as the reference prints it
+  bool distinct = false;    // of a text: no other table of the list has the same
+  std::string standard;     // the default as TOML; "": none
   bool required = false;
   bool ascending = false;  // of lists of numbers
   std::vector<Rule> rules;
@@ -66,6 +69,9 @@ struct Key {
   std::function<void(const Key& key, const Config& table, std::byte* member)> read;
   /// The member as TOML; "" for what no file can give. Empty for tables.
   std::function<std::string(const Key& key, const std::byte* member)> written;
+  /// Calls see(name, struct) for each struct of a kTable, kTables or kNamed; the name of kNamed.
+  using See = std::function<void(const std::string& name, const std::byte* object)>;
+  std::function<void(const std::byte* member, const See& see)> each;
 };
 
 }  // namespace clatter::keys

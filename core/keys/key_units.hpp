@@ -8,9 +8,10 @@ namespace clatter::keys {
 
 /// What a number of a key means: SI value = number * scale + offset.
 struct KeyUnit {
-  std::string shown;    // "mm", "N/m"; "" for a number without one
-  double scale = 1.0;   // SI per unit
-  double offset = 0.0;  // in SI: of degrees Celsius
+  std::string shown;     // "mm", "N/m"; "" for a number without one
+  double scale = 1.0;    // SI per unit
+  double offset = 0.0;   // in SI: of degrees Celsius
+  bool of_file = false;  // a length in the unit that the file chooses, Config::metre()
 };
 
 /// The unit in which a name ends, the longest that fits: N/m for `rate_n_m`, m for `reach_m`.

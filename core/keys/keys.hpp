@@ -19,10 +19,12 @@
 // in the key's unit; the meaning. The default is what the struct has. Rules between keys are said
 // by required(), needs(), excludes(), required_with(); what they cannot say is a check().
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,27 +32,29 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/units.hpp"
 #include "core/keys/table.hpp"
 
 namespace clatter::keys {
 
-/// Values of a choice or flag that a rule names: "vogel", or {"vogel", "walther"}; {}: any.
-struct Values : std::vector<std::string> {
+/// None, one or several values of a choice or flag, of a rule.
+struct Values {
   Values() = default;
-  Values(const char* value) : vector{value} {}
-  Values(std::initializer_list<const char*> values) : vector(values.begin(), values.end()) {}
+  Values(const char* one) : all{one} {}
+  Values(std::initializer_list<const char*> several) : all(several.begin(), several.end()) {}
+  std::vector<std::string> all;
 };
 
 /// The row that was added last, for what not every key has.
 class Row {
  public:
   explicit Row(Key& key) : key_(key) {}
-  /// The table is refused without this key; of tables, with none of them.
+  /// The table is refused without this key; of lists and tables, with none of them.
   Row& required();
   /// Refused without the key `other`, or where that choice or flag has another value.
   Row& needs(std::string other, Values values = {}, std::string reason = "");
   Row& excludes(std::string other, std::string reason = "");
-  /// Refused without this key where `other` is given, or has one of these values.
+  /// Refused without this key where `other` is given, or has this value.
   Row& required_with(std::string other, Values values = {});
   /// Both: a key of that choice alone, which cannot do without.
   Row& of(const std::string& other, const Values& values = {});
@@ -58,6 +62,16 @@ class Row {
   Row& as_many_as(std::string other);
   /// A list of numbers, each above the one before.
   Row& ascending();
+  /// A length without a unit in its name: in that of the file, which length_unit() reads.
+  Row& in_length_unit();
+  /// Of a list: exactly so many.
+  Row& count(size_t count);
+  /// Of a list of texts: each is one of these.
+  Row& each_of(std::vector<std::string> choices);
+  /// Of a text: no other table of the list has the same.
+  Row& distinct();
+  /// Of value(): what may be written.
+  Row& types(std::vector<Type> types);
   /// The unit as shown, where the name's end has two meanings: N m, not N/m.
   Row& shown_in(std::string unit);
   /// The member keeps the number in the key's unit.
@@ -75,6 +89,7 @@ class Rows {
   Rows(Table& table, const void* standard, size_t size)
       : table_(table), standard_(static_cast<const std::byte*>(standard)), size_(size) {}
 
+  /// A default outside the range means that there is none.
   Row number(std::string name, double& at, Range range, std::string meaning);
   /// Optional members are absent without the key, unless they have a value as a default.
   Row number(std::string name, std::optional<double>& at, Range range, std::string meaning);
@@ -83,10 +98,15 @@ class Rows {
   Row flag(std::string name, bool& at, std::string meaning);
   Row flag(std::string name, std::optional<bool>& at, std::string meaning);
   Row text(std::string name, std::string& at, std::string meaning);
+  /// A text that names a group of a result file: not empty, without '/'.
+  Row name(std::string name, std::string& at, std::string meaning);
+  /// A text that is one of these.
+  Row choice(std::string name, std::string& at, std::vector<std::string> choices,
+             std::string meaning);
+  /// A consistent system of units.
+  Row units(std::string name, UnitSystem& at, std::string meaning);
   Row path(std::string name, std::filesystem::path& at, std::string meaning);
   Row numbers(std::string name, std::vector<double>& at, Range each, std::string meaning);
-  /// One number, or a list of them.
-  Row one_or_more(std::string name, std::vector<double>& at, Range each, std::string meaning);
   Row texts(std::string name, std::vector<std::string>& at, std::string meaning);
   /// As many numbers as the member has.
   template <int n>
@@ -100,17 +120,36 @@ class Rows {
   Row vector(std::string name, std::optional<Eigen::Vector3d>& at, Range each, std::string meaning);
   /// Three numbers that are not all 0; the member gets length 1.
   Row direction(std::string name, Eigen::Vector3d& at, std::string meaning);
+  Row direction(std::string name, std::optional<Eigen::Vector3d>& at, std::string meaning);
+  /// A number, or a list of them.
+  Row one_or_more(std::string name, std::vector<double>& at, Range each, std::string meaning);
+  /// Two numbers, the second above the first.
+  Row interval(std::string name, std::optional<std::pair<double, double>>& at, std::string meaning);
+  /// A table of numbers whose keys are names.
+  Row by_name(std::string name, std::map<std::string, double>& at, Range each, std::string meaning);
+  /// The unit of lengths that have none in their name [m]; before the rows that it scales.
+  Row length_unit(std::string name, double& at, std::vector<std::pair<std::string, double>> units,
+                  std::string meaning);
+  /// Two rows, of which one is given, fill the same member in different units: `is_second` says
+  /// which.
+  void in_either(const std::string& first, const std::string& second, bool& is_second);
 
  protected:
   size_t offset_of(const void* member) const;
+  Key& add(std::string name, Type type, const void* member, std::string meaning);
   /// Index of a text among the choices of a key.
   static size_t choice_of(const Key& key, const Config& table, const std::string& text);
-  Key& add(std::string name, Type type, const void* member, std::string meaning);
   /// `count` numbers, the first of which is at `at`.
   Row fixed(std::string name, const double* at, size_t count, Range each, std::string meaning);
   /// `values` are those of the choices, byte by byte.
   Row add_choice(std::string name, const void* member, std::vector<std::string> choices,
                  std::vector<std::byte> values, std::string meaning);
+  /// The texts of a list, each one of the row's choices; `standard` without the key.
+  static std::vector<std::string> read_choices(const Key& row, const Config& table,
+                                               const std::vector<std::string>& standard);
+  static std::string in_toml(const std::vector<std::string>& texts);
+  /// Refuses tables of a list with the same text where it has to be distinct.
+  static void check_distinct(const Table& keys, const std::vector<Config>& tables);
 
   Table& table_;
   const std::byte* standard_;
@@ -142,21 +181,32 @@ class Keys : private Rows {
     read(config, result);
     return result;
   }
+  /// All values of `s` as TOML that read() reads back to the same.
+  std::string toml_of(const S& s) const {
+    return data_.toml_of(reinterpret_cast<const std::byte*>(&s));
+  }
   /// The same over values that `result` has already.
   void read(const Config& config, S& result) const {
     data_.read(config, reinterpret_cast<std::byte*>(&result));
     for (const auto& check : checks_) check(config, result);
   }
 
+  using Rows::by_name;
+  using Rows::choice;
   using Rows::direction;
   using Rows::flag;
+  using Rows::in_either;
   using Rows::integer;
+  using Rows::interval;
+  using Rows::length_unit;
+  using Rows::name;
   using Rows::number;
   using Rows::numbers;
   using Rows::one_or_more;
   using Rows::path;
   using Rows::text;
   using Rows::texts;
+  using Rows::units;
   using Rows::vector;
 
   /// The member gets "file:line" of the table for messages of later checks, or with `key`
@@ -205,32 +255,87 @@ class Keys : private Rows {
                       std::move(meaning));
   }
 
+  /// A list of texts, each of which sets a flag of a struct; the others are false.
+  template <class T>
+  Row flags(std::string name, T& at, std::vector<std::pair<std::string, bool T::*>> choices,
+            std::string meaning) {
+    Key& key = add(std::move(name), Type::kTexts, &at, std::move(meaning));
+    for (const auto& [text, flag] : choices) key.choices.push_back(text);
+    key.read = [choices](const Key& row, const Config& table, std::byte* bytes) {
+      auto& member = *reinterpret_cast<T*>(bytes);
+      std::vector<std::string> standard;
+      for (const auto& [text, flag] : choices)
+        if (member.*flag) standard.push_back(text);
+      const std::vector<std::string> texts = read_choices(row, table, standard);
+      for (const auto& [text, flag] : choices)
+        member.*flag = std::find(texts.begin(), texts.end(), text) != texts.end();
+    };
+    key.written = [choices](const Key&, const std::byte* bytes) {
+      std::vector<std::string> texts;
+      for (const auto& [text, flag] : choices)
+        if (reinterpret_cast<const T*>(bytes)->*flag) texts.push_back(text);
+      return in_toml(texts);
+    };
+    return Row(key);
+  }
+
   /// A table of its own; its struct keeps its defaults without it.
   template <class T>
   Row table(std::string name, T& at, const Keys<T>& keys, std::string meaning = "") {
-    return sub(std::move(name), Type::kTable, &at, keys, std::move(meaning),
-               [&keys](const Config& parent, const Key& key, T& member) {
-                 if (key.required || parent.has(key.name))
-                   keys.read(parent.table(key.name), member);
-               });
+    return sub(
+        std::move(name), Type::kTable, &at, keys, std::move(meaning),
+        [&keys](const Config& parent, const Key& key, T& member) {
+          if (key.required || parent.has(key.name)) keys.read(parent.table(key.name), member);
+        },
+        [](const T& member, const auto& see) { see("", member); });
   }
   /// Absent without the table.
   template <class T>
   Row table(std::string name, std::optional<T>& at, const Keys<T>& keys, std::string meaning = "") {
-    return sub(std::move(name), Type::kTable, &at, keys, std::move(meaning),
-               [&keys](const Config& parent, const Key& key, std::optional<T>& member) {
-                 if (parent.has(key.name)) member = keys.read(parent.table(key.name));
-               });
+    return sub(
+        std::move(name), Type::kTable, &at, keys, std::move(meaning),
+        [&keys](const Config& parent, const Key& key, std::optional<T>& member) {
+          if (key.required || parent.has(key.name)) member = keys.read(parent.table(key.name));
+        },
+        [](const std::optional<T>& member, const auto& see) {
+          if (member) see("", *member);
+        });
   }
-  /// [[tables]], none or more.
+  /// [[tables]], none or more; with the key those of the default go.
   template <class T>
   Row tables(std::string name, std::vector<T>& at, const Keys<T>& keys, std::string meaning = "") {
-    return sub(std::move(name), Type::kTables, &at, keys, std::move(meaning),
-               [&keys](const Config& parent, const Key& key, std::vector<T>& member) {
-                 for (const Config& one : parent.tables(key.name)) member.push_back(keys.read(one));
-                 if (key.required && member.empty())
-                   parent.fail(key.name, "found none, expected at least one table");
-               });
+    Row row = sub(
+        std::move(name), Type::kTables, &at, keys, std::move(meaning),
+        [&keys](const Config& parent, const Key& key, std::vector<T>& member) {
+          if (parent.has(key.name)) member.clear();
+          const std::vector<Config> all = parent.tables(key.name);
+          for (const Config& one : all) member.push_back(keys.read(one));
+          if (key.required && member.empty())
+            parent.fail(key.name, "found none, expected at least one table");
+          check_distinct(keys.table(), all);
+        },
+        [](const std::vector<T>& member, const auto& see) {
+          for (const T& one : member) see("", one);
+        });
+    data_.keys_.back().written = [](const Key&, const std::byte* bytes) -> std::string {
+      return reinterpret_cast<const std::vector<T>*>(bytes)->empty() ? "[]" : "";
+    };
+    return row;
+  }
+  /// A table whose keys are names, each with a table.
+  template <class T>
+  Row named(std::string name, std::map<std::string, T>& at, const Keys<T>& keys,
+            std::string meaning = "") {
+    return sub(
+        std::move(name), Type::kNamed, &at, keys, std::move(meaning),
+        [&keys](const Config& parent, const Key& key, std::map<std::string, T>& member) {
+          const auto found = parent.find_table(key.name);
+          for (const std::string& one : found ? found->keys() : std::vector<std::string>())
+            member[one] = keys.read(found->table(one));
+        },
+        [](const std::map<std::string, T>& member, const auto& see) {
+          for (const auto& [one, value] : member) see(one, value);
+        });
   }
   /// A key with a reader of its own: read(config, key, member) is called when the key is there.
   /// `shape` says what may be written: "a number or a list of numbers".
@@ -272,6 +377,15 @@ class Keys : private Rows {
   void one_of(std::vector<std::string> names) { data_.alternatives_.push_back(std::move(names)); }
   /// Other readers take further keys of the same TOML table: unknown ones are theirs to refuse.
   void shared() { data_.shared_ = true; }
+  /// act(config, s) is called when the rows so far were read: for what later rows need of them.
+  void then(const std::function<void(const Config&, S&)>& act) {
+    Key& key = data_.keys_.back();
+    key.read = [read = key.read, act, offset = key.offset](const Key& row, const Config& config,
+                                                           std::byte* member) {
+      read(row, config, member);
+      act(config, *reinterpret_cast<S*>(member - offset));
+    };
+  }
   /// check(config, s) is called after all keys were read: it fails for values that do not go
   /// together, and may set members that follow from several keys.
   void check(std::function<void(const Config&, S&)> check) { checks_.push_back(std::move(check)); }
@@ -280,13 +394,18 @@ class Keys : private Rows {
   template <class T>
   friend class Keys;
 
-  template <class M, class T, class Read>
+  template <class M, class T, class Read, class Each>
   Row sub(std::string name, Type type, M* at, const Keys<T>& keys, std::string meaning,
-          const Read& read) {
+          const Read& read, const Each& each) {
     Key& key = add(std::move(name), type, at, meaning.empty() ? keys.table().meaning() : meaning);
     key.table = &keys.table();
     key.read = [read](const Key& row, const Config& config, std::byte* member) {
       read(config, row, *reinterpret_cast<M*>(member));
+    };
+    key.each = [each](const std::byte* member, const Key::See& see) {
+      each(*reinterpret_cast<const M*>(member), [&see](const std::string& one, const T& object) {
+        see(one, reinterpret_cast<const std::byte*>(&object));
+      });
     };
     return Row(key);
   }

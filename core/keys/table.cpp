@@ -46,16 +46,30 @@ const Key* Table::find(std::string_view name) const {
   return at == keys_.end() ? nullptr : &*at;
 }
 
-bool Table::holds(const Rule& rule, const Config& table, const std::byte* object) const {
-  if (rule.values.empty()) return table.has(rule.other);
+bool Table::has_value(const Rule& rule, const std::byte* object) const {
   const Key* other = find(rule.other);
   if (other == nullptr || !other->written) return false;
-  const std::string is = other->written(*other, object + other->offset);
-  return std::any_of(rule.values.begin(), rule.values.end(),
-                     [&](const std::string& value) { return is == in_toml(other, value); });
+  const std::string found = other->written(*other, object + other->offset);
+  return rule.values.empty()
+             ? !found.empty() && found != "[]"
+             : std::any_of(rule.values.begin(), rule.values.end(), [&](const std::string& value) {
+                 return found == in_toml(other, value);
+               });
+}
+
+bool Table::holds(const Rule& rule, const Config& table, const std::byte* object) const {
+  return rule.values.empty() ? table.has(rule.other) : has_value(rule, object);
 }
 
 void Table::check_rules(const Config& table, const std::byte* object) const {
+  for (const std::vector<std::string>& group : alternatives_) {
+    std::vector<std::string> given;
+    for (const std::string& name : group)
+      if (table.has(name)) given.push_back(name);
+    if (given.empty()) table.fail(group.front(), fmt::format("give {}", fmt::join(group, " or ")));
+    if (given.size() > 1)
+      table.fail(given[1], fmt::format("{} exclude each other", fmt::join(given, " and ")));
+  }
   for (const Key& key : keys_) {
     for (const Rule& rule : key.rules) {
       const bool given = table.has(key.name), is_so = holds(rule, table, object);
@@ -75,14 +89,6 @@ void Table::check_rules(const Config& table, const std::byte* object) const {
                                            rule.other, wanted));
       }
     }
-  }
-  for (const std::vector<std::string>& group : alternatives_) {
-    std::vector<std::string> given;
-    for (const std::string& name : group)
-      if (table.has(name)) given.push_back(name);
-    if (given.empty()) table.fail(group.front(), fmt::format("give {}", fmt::join(group, " or ")));
-    if (given.size() > 1)
-      table.fail(given[1], fmt::format("{} exclude each other", fmt::join(given, " and ")));
   }
 }
 
@@ -106,9 +112,48 @@ void Table::read(const Config& table, std::byte* object) const {
   check_rules(table, object);
 }
 
+bool Table::is_written(const Key& key, const std::byte* object) const {
+  const auto text_of = [&](const Key* one) {
+    return one != nullptr && one->written ? one->written(*one, object + one->offset) : "";
+  };
+  const std::string text = text_of(&key);
+  if (text.empty() || (text == "[]" && text == key.standard)) return false;
+  const bool is_standard = text == key.standard;
+  const auto excludes = [&](const Key& one, const std::string& other) {
+    return std::any_of(one.rules.begin(), one.rules.end(), [&](const Rule& rule) {
+      return rule.kind == Rule::Kind::kExcludes && rule.other == other;
+    });
+  };
+  for (const Key& other : keys_)
+    if (is_standard && (excludes(key, other.name) || excludes(other, key.name)) &&
+        text_of(&other) != other.standard)
+      return false;
+  return std::all_of(key.rules.begin(), key.rules.end(), [&](const Rule& rule) {
+    return rule.kind != Rule::Kind::kNeeds || has_value(rule, object);
+  });
+}
+
+std::string Table::toml_of(const std::byte* object, const std::string& prefix) const {
+  std::string text;
+  for (const Key& key : keys_)
+    if (is_written(key, object))
+      text += fmt::format("{} = {}\n", key.name, key.written(key, object + key.offset));
+  for (const Key& key : keys_) {
+    if (!key.each) continue;
+    const char* heading = key.type == Type::kTables ? "[[{}{}{}]]\n" : "[{}{}{}]\n";
+    key.each(object + key.offset, [&](const std::string& name, const std::byte* one) {
+      const std::string dotted = name.empty() ? "" : "." + name;
+      text += fmt::format(fmt::runtime(heading), prefix, key.name, dotted) +
+              key.table->toml_of(one, prefix + key.name + dotted + ".");
+    });
+  }
+  return text;
+}
+
 void Table::write_standards(const std::byte* standard) {
   for (Key& key : keys_)
-    if (key.written && key.has_standard()) key.standard = key.written(key, standard + key.offset);
+    if (key.written)
+      key.standard = key.has_standard() ? key.written(key, standard + key.offset) : "";
 }
 
 }  // namespace clatter::keys

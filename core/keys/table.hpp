@@ -33,12 +33,17 @@ class Table {
   /// "file:line: key: ..." for an unknown key of the table, with the nearest name; for keys that
   /// exclude or need each other, or lack; and for values outside their range.
   void read(const Config& table, std::byte* object) const;
+  /// All values as TOML, that of `prefix` below which the table is; defaults that exclude or need
+  /// what the object has otherwise are left out.
+  std::string toml_of(const std::byte* object, const std::string& prefix = "") const;
 
  private:
   friend class Rows;
   template <class S>
   friend class Keys;
   void check_rules(const Config& table, const std::byte* object) const;
+  bool is_written(const Key& key, const std::byte* object) const;
+  bool has_value(const Rule& rule, const std::byte* object) const;
   bool holds(const Rule& rule, const Config& table, const std::byte* object) const;
 
   void write_standards(const std::byte* standard);

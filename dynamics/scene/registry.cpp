@@ -32,6 +32,7 @@ namespace {
 
 /// Keys of the scene itself.
 struct SceneHead {
+  std::filesystem::path base;
   std::string title;
   GravitySpec gravity;
 };

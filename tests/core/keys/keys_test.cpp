@@ -46,7 +46,9 @@ const Keys<Oil>& oil_keys() {
     key.number("temperature_c", oil.temperature, Range::between(-60.0, 400.0), "of the film");
     key.choice("law", oil.law, {{"constant", Law::kConstant}, {"vogel", Law::kVogel}},
                "viscosity over temperature");
-    key.number("vogel_b_k", oil.vogel_b, Range::positive(), "of Vogel's law").of("law", "vogel");
+    key.number("vogel_b_k", oil.vogel_b, Range::positive(), "of Vogel's law")
+        .needs("law", "vogel")
+        .required_with("law", "vogel");
   });
   return keys;
 }
@@ -138,7 +140,7 @@ TEST(Keys, WhatIsWrongIsSaidWithItsLineAndTheWayOut) {
   EXPECT_EQ(refusal_of("bore_mm = 107\n[oil]\nlaw = \"walther\""),
             "a.toml:3: oil.law: found \"walther\", expected one of: constant, vogel");
   EXPECT_EQ(refusal_of("bore_mm = 107\nheight_mm = [0, 200]"),
-            "a.toml:2: height_mm: found 200, expected at least -100 and at most 100");
+            "a.toml:2: height_mm: found 200, expected a number at least -100 and at most 100");
   EXPECT_EQ(refusal_of("bore_mm = 107\nnormal = [0, 0, 0]"),
             "a.toml:2: normal: found length 0, expected a direction");
   EXPECT_EQ(refusal_of("bore_mm = 0.1\nclearance_um = 100"),
@@ -214,6 +216,152 @@ TEST(Keys, APartHasItsKeysInTheSameTable) {
   EXPECT_DOUBLE_EQ(whole.oil.viscosity, 5e-3);
   EXPECT_DOUBLE_EQ(whole.length, 2.0);
   EXPECT_THROW(keys.read(Config::parse("vogel_b_k = 5", "a.toml")), InputError);
+}
+
+enum class Kind { kNone, kSteel, kOil };
+
+struct Quantities {
+  bool force = true, moment = false;
+};
+
+struct Seat {
+  std::string name;
+  double height = 0.0;  // 0: not given
+};
+
+struct Everything {
+  double metre = 1.0;
+  std::optional<Eigen::Vector3d> at;
+  double reach = 0.02;
+  double from = -10.0;  // [deg], or [s]
+  bool in_seconds = false;
+  std::vector<double> moduli;
+  std::optional<std::pair<double, double>> range;
+  std::map<std::string, double> factors;
+  std::map<std::string, Seat> seats;
+  std::vector<Seat> rows{{"first", 0.0}};
+  Quantities quantities;
+  Kind kind = Kind::kNone;
+  std::string method = "fast";
+  std::optional<int> count;
+  UnitSystem units;
+  double doubled = 0.0;
+};
+
+const Keys<Seat>& seat_keys() {
+  static const Keys<Seat> keys("seat", "a seat", [](auto& key, Seat& seat) {
+    key.name("name", seat.name, "its name").distinct();
+    key.number("height", seat.height, Range::positive(), "its height").in_length_unit();
+  });
+  return keys;
+}
+
+const Keys<Everything>& everything_keys() {
+  static const Keys<Everything> keys("all.toml", "all rows", [](auto& key, Everything& all) {
+    key.length_unit("length_unit", all.metre, {{"m", 1.0}, {"mm", 1e-3}}, "of lengths");
+    key.vector("at", all.at, {}, "a point").in_length_unit();
+    key.number("reach", all.reach, Range::positive(), "how far").in_length_unit();
+    key.number("from_deg", all.from, {}, "begin").unconverted();
+    key.number("from_s", all.from, {}, "begin");
+    key.in_either("from_deg", "from_s", all.in_seconds);
+    key.one_or_more("modulus_gpa", all.moduli, Range::positive(), "one or three");
+    key.interval("range", all.range, "ends").in_length_unit();
+    key.by_name("factors", all.factors, {}, "of loads");
+    key.then([](const Config&, Everything& e) { e.doubled = 2.0 * e.reach; });
+    key.named("seats", all.seats, seat_keys());
+    key.tables("row", all.rows, seat_keys());
+    key.flags("quantities", all.quantities,
+              {{"force", &Quantities::force}, {"moment", &Quantities::moment}}, "what is written");
+    key.choice("kind", all.kind, {{"steel", Kind::kSteel}, {"oil", Kind::kOil}}, "of it");
+    key.choice("method", all.method, {"fast", "exact"}, "of solution");
+    key.integer("count", all.count, {1, 9}, "how many").needs("kind", {"steel", "oil"});
+    key.units("units", all.units, "of the deck");
+  });
+  return keys;
+}
+
+Everything read_all(const std::string& text) {
+  return everything_keys().read(Config::parse(text, "a.toml"));
+}
+
+std::string refusal_of_all(const std::string& text) {
+  try {
+    read_all(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Keys, LengthsWithoutAUnitAreInThatOfTheFile) {
+  const Everything all = read_all(
+      "at = [1, 2, 3]\nrange = [4, 5]\nlength_unit = 'mm'\n[seats.low]\nheight = 7\n[[row]]\n"
+      "height = 8");
+  EXPECT_NEAR((*all.at - Eigen::Vector3d(1e-3, 2e-3, 3e-3)).norm(), 0.0, 1e-18);
+  EXPECT_DOUBLE_EQ(all.reach, 0.02);  // a default is SI
+  EXPECT_DOUBLE_EQ(all.doubled, 0.04);
+  EXPECT_DOUBLE_EQ(all.range->second, 5e-3);
+  EXPECT_DOUBLE_EQ(all.seats.at("low").height, 7e-3);
+  ASSERT_EQ(all.rows.size(), 1U);  // instead of the default's
+  EXPECT_DOUBLE_EQ(all.rows[0].height, 8e-3);
+  EXPECT_DOUBLE_EQ(read_all("at = [1, 2, 3]").at->x(), 1.0);
+}
+
+TEST(Keys, RowsOfEveryKindAreRead) {
+  const Everything all = read_all(
+      "from_s = 0.5\nmodulus_gpa = 210\nfactors = {a = 2, b = -1}\nquantities = ['moment']\n"
+      "kind = 'oil'\nmethod = 'exact'\ncount = 3\nunits = 'mm-t-s'");
+  EXPECT_DOUBLE_EQ(all.from, 0.5);
+  EXPECT_TRUE(all.in_seconds);
+  EXPECT_EQ(all.moduli, std::vector<double>{210e9});
+  EXPECT_EQ(all.factors.at("b"), -1.0);
+  EXPECT_FALSE(all.quantities.force);
+  EXPECT_TRUE(all.quantities.moment);
+  EXPECT_EQ(all.kind, Kind::kOil);
+  EXPECT_EQ(all.method, "exact");
+  EXPECT_EQ(all.count, 3);
+  EXPECT_EQ(all.units.length, 1e-3);
+  EXPECT_EQ(read_all("modulus_gpa = [1, 2, 3]").moduli, (std::vector<double>{1e9, 2e9, 3e9}));
+  EXPECT_EQ(read_all("from_deg = 3").from, 3.0);
+  EXPECT_EQ(read_all("").kind, Kind::kNone);
+  EXPECT_EQ(read_all("[[row]]\nname = 'a'").rows[0].height, 0.0);
+}
+
+TEST(Keys, RowsOfEveryKindRefuse) {
+  EXPECT_EQ(refusal_of_all("from_deg = 1\nfrom_s = 2"),
+            "a.toml:2: from_s: from_s and from_deg exclude each other");
+  EXPECT_EQ(refusal_of_all("modulus_gpa = [1, 0]"),
+            "a.toml:1: modulus_gpa: found 0, expected a number above 0");
+  EXPECT_THAT(refusal_of_all("range = [2, 1]"), HasSubstr("a.toml:1: range: found an end"));
+  EXPECT_EQ(refusal_of_all("quantities = ['power']"),
+            "a.toml:1: quantities: found \"power\", expected some of: force, moment");
+  EXPECT_EQ(refusal_of_all("quantities = []"),
+            "a.toml:1: quantities: found none, expected at least one");
+  EXPECT_EQ(refusal_of_all("kind = 'wood'"),
+            "a.toml:1: kind: found \"wood\", expected one of: steel, oil");
+  EXPECT_EQ(refusal_of_all("method = 'slow'"),
+            "a.toml:1: method: found \"slow\", expected one of: fast, exact");
+  EXPECT_EQ(refusal_of_all("count = 2"), "a.toml:1: count: needs kind = \"steel\" or \"oil\"");
+  EXPECT_EQ(refusal_of_all("[[row]]\nname = 'a'\n[[row]]\nname = 'a'"),
+            "a.toml:4: row[1].name: found \"a\" twice, expected different names");
+  EXPECT_EQ(refusal_of_all("[seats.low]\nname = 'a/b'"),
+            "a.toml:2: seats.low.name: found \"a/b\", expected a name without '/'");
+  EXPECT_EQ(refusal_of_all("[seats.low]\nheight = 0"),
+            "a.toml:2: seats.low.height: found 0, expected a number above 0");
+  EXPECT_THAT(refusal_of_all("units = 'feet'"), HasSubstr("a.toml:1: units: found units 'feet'"));
+}
+
+TEST(Keys, WhatIsWrittenIsReadBack) {
+  for (const char* text :
+       {"", "from_s = 0.5\nquantities = ['moment']\nkind = 'oil'\ncount = 3", "row = []",
+        "at = [1, 2, 3]\nfactors = {a = 2}\n[seats.low]\nheight = 2\n[[row]]\nname = 'b'"}) {
+    const std::string written = everything_keys().toml_of(read_all(text));
+    EXPECT_EQ(everything_keys().toml_of(read_all(written)), written) << text;
+  }
+  const std::string written = everything_keys().toml_of(read_all("from_s = 0.5\nrow = []"));
+  EXPECT_THAT(written, HasSubstr("from_s = 0.5\n"));
+  EXPECT_THAT(written, testing::Not(HasSubstr("from_deg")));
+  EXPECT_THAT(written, HasSubstr("row = []\n"));
 }
 
 enum class Film { kNone, kMoes, kTable };
@@ -305,7 +453,7 @@ TEST(Keys, RulesNameSeveralValuesAndLengths) {
   EXPECT_EQ(bearing_refusal("range_deg = [90, 0]\noil = {}"),
             "a.toml:1: range_deg: found 0 after 90, expected ascending values");
   EXPECT_EQ(bearing_refusal("temperature_c = [80, 500]\noil = {}"),
-            "a.toml:1: temperature_c: found 500, expected at least -60 and at most 400");
+            "a.toml:1: temperature_c: found 500, expected a number at least -60 and at most 400");
   EXPECT_EQ(bearing_refusal("start = \"table\"\noil = {}"),
             "a.toml:1: start: found \"table\", expected one of: none, moes");
   EXPECT_EQ(bearing_refusal("cells = 3\noil = {}"),
