@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -173,17 +174,33 @@ std::string rule_text(const Table& table, const Rule& rule) {
   return "";
 }
 
-std::string line_of(const Table& table, const Key& key) {
-  std::string text = kind_text(key);
-  if (key.required) text += ", required";
-  if (!key.standard.empty() && key.standard != "[]") text += ", default " + key.standard;
-  for (const Rule& rule : key.rules) text += ", " + rule_text(table, rule);
-  const std::string unit = key.unit.shown.empty() ? "" : " [" + key.unit.shown + "]";
-  return fmt::format("  {:24}{}{}\n{:28}{}\n", key.name, key.meaning, unit, "", text);
+/// ", required, only with ..."; a key of one choice that cannot do without it says so once.
+std::string rules_text(const Table& table, const Key& key) {
+  std::string text = key.required ? ", required" : "";
+  for (const Rule& rule : key.rules) {
+    const bool is_said = std::any_of(key.rules.begin(), key.rules.end(), [&](const Rule& other) {
+      return rule.kind == Rule::Kind::kNeeds && other.kind == Rule::Kind::kRequiredWith &&
+             other.other == rule.other && other.values == rule.values;
+    });
+    const bool is_needed = std::any_of(key.rules.begin(), key.rules.end(), [&](const Rule& other) {
+      return rule.kind == Rule::Kind::kRequiredWith && other.kind == Rule::Kind::kNeeds &&
+             other.other == rule.other && other.values == rule.values;
+    });
+    if (!is_said) text += ", " + rule_text(table, rule) + (is_needed ? " only" : "");
+  }
+  return text;
 }
 
-std::string under(const Table& table, const std::string& heading) {
-  std::string text = fmt::format("{}  {}\n", heading, table.meaning());
+std::string line_of(const Table& table, const Key& key) {
+  std::string text = kind_text(key);
+  if (!key.standard.empty() && key.standard != "[]") text += ", default " + key.standard;
+  const std::string unit = key.unit.shown.empty() ? "" : " [" + key.unit.shown + "]";
+  return fmt::format("  {:23} {}{}\n{:28}{}{}\n", key.name, key.meaning, unit, "", text,
+                     rules_text(table, key));
+}
+
+std::string under(const Table& table, const std::string& heading, const std::string& meaning) {
+  std::string text = fmt::format("{}  {}\n", heading, meaning);
   for (const Key& key : table.keys())
     if (key.table == nullptr) text += line_of(table, key);
   for (const auto& group : table.alternatives())
@@ -196,7 +213,8 @@ std::string under(const Table& table, const std::string& heading) {
     const std::string inner =
         heading.front() == '[' ? heading.substr(heading.find_first_not_of('[')) : "";
     const std::string prefix = inner.empty() ? "" : inner.substr(0, inner.find(']')) + ".";
-    text += "\n" + under(*key.table, fmt::format(fmt::runtime(form), prefix + key.name));
+    text += "\n" + under(*key.table, fmt::format(fmt::runtime(form), prefix + key.name),
+                         key.meaning + rules_text(table, key));
   }
   return text;
 }
@@ -233,11 +251,12 @@ std::string json_of(const Table& table) {
   for (const auto& group : table.alternatives()) groups.push_back(json_texts(group));
   JsonMembers members{{"name", json_text(table.name())}, {"meaning", json_text(table.meaning())}};
   if (!groups.empty()) members.emplace_back("one_of", json_list(groups));
+  if (!table.is_complete()) members.emplace_back("complete", "false");
   members.emplace_back("keys", json_list(rows));
   return json_object(members);
 }
 
-std::string text_of(const Table& table) { return under(table, table.name()); }
+std::string text_of(const Table& table) { return under(table, table.name(), table.meaning()); }
 
 std::string text_of(const Table& table, const std::string& path) {
   if (path.empty()) return text_of(table);
@@ -250,7 +269,7 @@ std::string text_of(const Table& table, const std::string& path) {
   if (dot != std::string::npos && key->table == nullptr)
     throw InputError(fmt::format("{}: a key, not a table", name));
   if (dot != std::string::npos) return text_of(*key->table, path.substr(dot + 1));
-  return key->table != nullptr ? under(*key->table, fmt::format("[{}]", name))
+  return key->table != nullptr ? under(*key->table, fmt::format("[{}]", name), key->meaning)
                                : line_of(table, *key);
 }
 

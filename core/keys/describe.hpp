@@ -9,7 +9,8 @@
 
 namespace clatter::keys {
 
-/// The table with all below it, as one JSON object: name, meaning, one_of, and keys with name,
+/// The table with all below it, as one JSON object: name, meaning, one_of, complete (false: what it
+/// lacks may come from elsewhere), and keys with name,
 /// type, types (of either), unit, min, max, above (the least value itself is refused), count,
 /// choices, default, required, ascending, rules, meaning, shape, table.
 std::string json_of(const Table& table);

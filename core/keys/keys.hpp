@@ -226,10 +226,12 @@ class Keys : private Rows {
     std::vector<std::pair<std::string, E>> known(choices.begin(), choices.end());
     Key& key = add(std::move(name), Type::kChoice, &at, std::move(meaning));
     for (const auto& one : known) key.choices.push_back(one.first);
-    key.read = [known](const Key& row, const Config& config, std::byte* member) {
+    key.read = [known](const Key& row, const Config& config, std::byte* bytes) {
+      auto& member = *reinterpret_cast<std::optional<E>*>(bytes);
       if (row.required || config.has(row.name))
-        *reinterpret_cast<std::optional<E>*>(member) =
-            known[choice_of(row, config, config.text(row.name))].second;
+        member = known[choice_of(row, config, config.text(row.name))].second;
+      for (const auto& one : known)
+        if (member && *member == one.second) config.text_or(row.name, one.first);
     };
     key.written = [known](const Key&, const std::byte* member) {
       const auto& value = *reinterpret_cast<const std::optional<E>*>(member);

@@ -61,6 +61,12 @@ bool Table::holds(const Rule& rule, const Config& table, const std::byte* object
   return rule.values.empty() ? table.has(rule.other) : has_value(rule, object);
 }
 
+bool Table::applies(const Key& key, const Config& table, const std::byte* object) const {
+  return std::all_of(key.rules.begin(), key.rules.end(), [&](const Rule& rule) {
+    return rule.kind != Rule::Kind::kNeeds || holds(rule, table, object);
+  });
+}
+
 void Table::check_rules(const Config& table, const std::byte* object) const {
   for (const std::vector<std::string>& group : alternatives_) {
     std::vector<std::string> given;
@@ -108,7 +114,8 @@ void Table::check_known(const Config& table) const {
 void Table::read(const Config& table, std::byte* object) const {
   if (!shared_) check_known(table);
   for (const Key& key : keys_)
-    if (key.read) key.read(key, table, object + key.offset);
+    if (key.read && (key.required || table.has(key.name) || applies(key, table, object)))
+      key.read(key, table, object + key.offset);
   check_rules(table, object);
 }
 

@@ -24,6 +24,9 @@ class Table {
   const std::vector<std::vector<std::string>>& alternatives() const { return alternatives_; }
   /// nullptr when the table has no key of this name.
   const Key* find(std::string_view name) const;
+  /// What the table lacks may come from others: a schema requires nothing of it.
+  void complete_elsewhere() { complete_elsewhere_ = true; }
+  bool is_complete() const { return !complete_elsewhere_; }
   /// Lists a table that its owner reads, under the name that it has in this one.
   void add(std::string name, Type type, const Table& table);
 
@@ -44,6 +47,8 @@ class Table {
   void check_rules(const Config& table, const std::byte* object) const;
   bool is_written(const Key& key, const std::byte* object) const;
   bool has_value(const Rule& rule, const std::byte* object) const;
+  /// What it needs is there, as far as rows before it say: without that no default is recorded.
+  bool applies(const Key& key, const Config& table, const std::byte* object) const;
   bool holds(const Rule& rule, const Config& table, const std::byte* object) const;
 
   void write_standards(const std::byte* standard);
@@ -51,6 +56,7 @@ class Table {
   std::string name_, meaning_;
   std::vector<Key> keys_;
   std::vector<std::vector<std::string>> alternatives_;
+  bool complete_elsewhere_ = false;
   bool shared_ = false;  // other readers take further keys of the same TOML table
 };
 

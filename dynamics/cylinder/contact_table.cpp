@@ -78,6 +78,7 @@ void check_contact_surfaces(const Config& table, ContactTable& contact) {
   PistonLinerOptions& options = contact.options;
   film::AsperityOptions& asperity = options.asperity;
   asperity.law = contact.law.value_or(contact.summit_density ? Law::kExact : Law::kFit);
+  table.text_or("asperity_law", asperity.law == Law::kExact ? "exact" : "fit");
   if (contact.summit_density) {
     asperity.factor =
         film::contact_factor(*contact.summit_density, *contact.summit_radius, asperity.roughness);

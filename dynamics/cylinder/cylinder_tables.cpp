@@ -137,6 +137,7 @@ const Keys<CylinderTable>& cylinder_keys() {
 const keys::Table& cylinder_table() {
   static const keys::Table table = [] {
     keys::Table all = cylinder_keys().table();
+    all.complete_elsewhere();
     for (const auto& [name, of] : {std::pair{"engine", &stroke_keys().table()},
                                    {"rod", &rod_keys().table()},
                                    {"piston", &piston_keys().table()},

@@ -39,6 +39,7 @@ struct SceneHead {
 
 const keys::Keys<SceneHead>& scene_head_keys() {
   static const keys::Keys<SceneHead> keys("run.toml", "a scene", [](auto& key, SceneHead& head) {
+    key.path("base", head.base, "another run.toml, which has the keys that this one lacks");
     key.text("title", head.title, "in the run file and reports; the name of the file without it");
     key.part(head.gravity, gravity_keys());
   });

@@ -436,6 +436,16 @@ TEST(Keys, ListsOptionsAndDefaultsThatNoFileGives) {
   EXPECT_THAT(given.temperature, testing::ElementsAre(353.15));
   EXPECT_EQ(given.cells, 3);
   EXPECT_EQ(given.exact, false);
+  const Config config = Config::parse("oil = {}\nfilm = \"table\"", "a.toml");
+  bearing_keys().read(config);
+  EXPECT_THAT(config.resolved(), HasSubstr("film = \"table\""));
+  EXPECT_THAT(config.resolved(), testing::Not(HasSubstr("vogel_b_k")));
+  Bearing preset;
+  preset.start = Film::kMoes;
+  preset.cells = 4;
+  bearing_keys().read(config, preset);
+  EXPECT_THAT(config.resolved(), HasSubstr("start = \"moes\"\n"));
+  EXPECT_THAT(config.resolved(), HasSubstr("cells = 4\n"));
   EXPECT_EQ(bearing_keys().table().find("displacement_um")->standard, "");
   EXPECT_EQ(bearing_keys().table().find("end_mm")->standard, "[1, 2]");
 }

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pages docs/keys/*.md, one for each file of a stage: python3 -m clatter_tools.keys pages docs/keys."""
+import json
 import pathlib
 
 from . import words
@@ -27,8 +28,9 @@ def row_of(key):
     return f"| `{key['name']}` | {cell(key['meaning'] + words.unit_of(key) + rules)} | {cell(words.values_of(key))} | {default} |"
 
 
-def section(table, path=""):
-    """Lines of a table and of those below."""
+def section(table, path="", seen=None):
+    """Lines of a table and of those below; one that is `seen` with the same keys, {keys: heading}, is named instead."""
+    seen = {} if seen is None else seen
     prefix = f"{path}." if path else ""
     plain = [key for key in table["keys"] if "table" not in key]
     lines = ["| key | meaning | values | default |", "|---|---|---|---|", *map(row_of, plain), ""] if plain else []
@@ -37,7 +39,10 @@ def section(table, path=""):
     for key in table["keys"]:
         if "table" in key:
             inner = prefix + key["name"]
-            lines += [f"## `{words.heading_of(key, inner)}`", "", sentence(key["meaning"]), "", *section(key["table"], inner)]
+            heading, keys = words.heading_of(key, inner), json.dumps(key["table"]["keys"])
+            lines += [f"## `{heading}`", "", sentence(key["meaning"]), ""]
+            lines += [f"Its keys are those of `{seen[keys]}`.", ""] if keys in seen else section(key["table"], inner, seen)
+            seen.setdefault(keys, heading)
     return lines
 
 

@@ -68,6 +68,7 @@ def of_rule(name, rule, defaults):
 
 def of_table(table, strict=True):
     """The schema of a table; not strict: what it lacks may come from elsewhere."""
+    strict = strict and table.get("complete", True)
     found = {"description": table["meaning"], "type": "object", "additionalProperties": False,
              "properties": {key["name"]: of_key(key, strict) for key in table["keys"]}}
     if not strict:
