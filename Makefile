@@ -6,6 +6,7 @@
 #   make hard       every hard case of docs/hard-cases.md with a line each; CASES="B3 N" chooses, WRITE=1 writes docs/hard-results.md
 #   make check-mpi  clatter-condense-mpi by several processes, and its tests
 #   make docs       the site in build/docs           make lint      format, self-contained headers
+#   make keys-pages docs/keys/*.md, the keys of each TOML file
 #   make study      what accuracy costs, of beam, slap and timing drive; make study-paper, study-parameters   figures and influences of the slap
 #   make deb        a Debian package in build/, for x86-64 processors of two generations
 JOBS ?= $(shell nproc)
@@ -25,9 +26,9 @@ export ASAN_OPTIONS := alloc_dealloc_mismatch=0
 endif
 
 .NOTPARALLEL:
-.PHONY: help setup setup-mpi setup-demo setup-check setup-validate configure build build-mpi build-tests demo study study-paper study-parameters check hard check-mpi validate sanitize format lint docs deb levels install tidy workflows clean
+.PHONY: help setup setup-mpi setup-demo setup-check setup-validate configure build build-mpi build-tests demo study study-paper study-parameters check hard check-mpi validate sanitize format lint docs keys-pages deb levels install tidy workflows clean
 help:
-	@sed -n 's/^# \{0,1\}//;2,10p' Makefile
+	@sed -n 's/^# \{0,1\}//;2,11p' Makefile
 
 setup: ; @tools/setup build
 setup-mpi: ; @tools/setup build mpi
@@ -77,7 +78,10 @@ build-mpi: setup-mpi
 check-mpi: setup-check build-mpi
 	@$(CTEST) -L mpi; $(SKIPPED)
 
+# taplo checks the samples' TOML against the schemas; without a network the test takes python3-jsonschema.
+TAPLO := build/npm/node_modules/.bin/taplo
 validate: setup-validate build-tests
+	@[ -x $(TAPLO) ] || npm install --silent --prefix build/npm @taplo/cli@0.7.0 >/dev/null 2>&1 || echo "make validate: @taplo/cli could not be installed by npm"
 	@$(CTEST) -j$(JOBS); $(SKIPPED)
 
 # With the address and undefined behaviour sanitizers and warnings as errors.
@@ -116,6 +120,10 @@ deb:
 	@tools/setup build deb
 	@$(MAKE) --no-print-directory levels PREFIX=/usr
 	cd build/x86-64 && cpack -G DEB -B ..
+
+# docs/keys/*.md, from the tables by which the programs read their TOML files.
+keys-pages: build
+	@CLATTER_BIN=$(BIN) PYTHONPATH=tools /usr/bin/python3 -B -m clatter_tools.keys pages docs/keys
 
 docs:
 	@tools/setup docs

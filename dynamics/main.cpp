@@ -2,8 +2,10 @@
 // clatter-dynamics: runs a scene in the time domain.
 #include "core/base/blas_kernel.hpp"
 #include "core/base/command_line.hpp"
+#include "core/keys/describe.hpp"
 #include "dynamics/response_command.hpp"
 #include "dynamics/run_command.hpp"
+#include "dynamics/scene/registry.hpp"
 
 namespace {
 
@@ -19,7 +21,7 @@ keys that a scene does not set from another scene, so a variant is a few lines:
     [drive.crank]             # the base's [[drive]] of this name
     speed_rpm = 1000
 
-dynamics/README.md lists every key, the equations and the error test. Ctrl-C or SIGTERM stops after a step with a valid
+clatter-dynamics keys contact prints the keys of a table; dynamics/README.md has the equations and the error test. Ctrl-C or SIGTERM stops after a step with a valid
 file, stem.run.interrupted.h5 (attribute complete = 0); --resume continues from the last finished cycle.
 
 sample commands
@@ -41,6 +43,7 @@ int main(int argc, char** argv) {
       kEpilog);
   clatter::dynamics::declare_run(program);
   clatter::dynamics::declare_response(program);
+  clatter::keys::add_keys_command(program, {&clatter::dynamics::scene_table()});
   program.moved("--write-motored-cycle", "clatter motored-cycle OUT.csv --bore-mm ...");
   return program.run(argc, argv);
 }

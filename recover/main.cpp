@@ -7,8 +7,10 @@
 #include "core/base/log.hpp"
 #include "core/base/planned_files.hpp"
 #include "core/base/write_artefact.hpp"
+#include "core/keys/describe.hpp"
 #include "recover/listen_command.hpp"
 #include "recover/recover.hpp"
+#include "recover/sound/sound_options.hpp"
 #include "recover/sound_command.hpp"
 
 namespace {
@@ -19,8 +21,8 @@ std::string epilog() {
          "  clatter-recover slap.run.h5 -c slap.field.toml -o slap.field.h5\n"
          "  clatter-recover sound block.rom.h5 -o block.sound.h5\n"
          "  clatter-recover listen slap.field.h5 slap.wav\n"
-         "Open slap.field.xdmf (time) and slap.field.lines.xdmf (frequencies) in ParaView.\n\n" +
-         clatter::recover::options_help();
+         "Open slap.field.xdmf (time) and slap.field.lines.xdmf (frequencies) in ParaView.\n"
+         "What may be in a field.toml: clatter-recover keys field.toml";
 }
 
 struct Arguments {
@@ -33,8 +35,8 @@ void recover_run(const Arguments& a, const clatter::CommonOptions& common) {
   will_write("--output", recover::line_export_path(a.output));
   StepClock clock;
   const Config config = a.config.empty() ? Config::parse("", "defaults") : Config::load(a.config);
-  const recover::Options options = recover::read_options(config);
-  const std::string resolved = recover::resolved_text(options);
+  const recover::Options options = recover::field_keys().read(config);
+  const std::string resolved = recover::field_keys().toml_of(options);
   say("options:\n" + resolved);
   const recover::RunBody body(a.run, options.body);
   const rom::ReducedModel model = body.read_model();
@@ -65,6 +67,8 @@ int main(int argc, char** argv) {
   line.output("-o,--output", a.output, "field file, slap.field.h5", true);
   clatter::recover::declare_sound(line);
   clatter::recover::declare_listen(line);
+  clatter::keys::add_keys_command(
+      line, {&clatter::recover::field_keys().table(), &clatter::recover::sound_keys().table()});
   line.action([&a](const clatter::CommonOptions& common) { recover_run(a, common); });
   return line.run(argc, argv);
 }

@@ -39,8 +39,9 @@ void print(const PartSound& sound) {
 void make_sound(const SoundArguments& a, const CommonOptions& common) {
   StepClock clock;
   const Config config = a.config.empty() ? Config::parse("", "defaults") : Config::load(a.config);
-  const SoundOptions options = read_sound_options(config);
-  const std::string resolved = resolved_text(options);
+  SoundOptions options = sound_keys().read(config);
+  options.set = options.chosen_set();
+  const std::string resolved = sound_keys().toml_of(options);
   say("options:\n" + resolved);
   const rom::ReducedModel model = rom::read_reduced_model(a.rom);
   const std::string rom_sha256 = sha256_of_file(a.rom);
@@ -65,8 +66,8 @@ void declare_sound(CommandLine& program) {
       "  clatter-recover sound block.rom.h5 -o block.sound.h5\n"
       "  clatter-recover sound block.rom.h5 -c block.sound.toml -o block.sound.h5\n"
       "Once per part; then name it in a field.toml, `sound = \"block.sound.h5\"`: every run of the "
-      "part\ngets sound power and pressures at the microphones in a second.\n\n" +
-          sound_options_help());
+      "part\ngets sound power and pressures at the microphones in a second.\n"
+      "What may be in a sound.toml: clatter-recover keys sound.toml.");
   const auto a = std::make_shared<SoundArguments>();
   line.positional("rom", a->rom, "reduced part with a skin, block.rom.h5");
   line.option("-c,--config", a->config, "options, block.sound.toml; defaults without it");

@@ -162,6 +162,10 @@ void CommandLine::option(const std::string& flags, std::filesystem::path& value,
   add(*impl_, impl_->inputs, flags, value, help, required);
 }
 
+void CommandLine::word(const std::string& name, std::string& value, const std::string& help) {
+  impl_->app.add_option(name, value, help);
+}
+
 void CommandLine::output(const std::string& flags, std::filesystem::path& value,
                          const std::string& help, bool required) {
   add(*impl_, impl_->outputs, flags, value, help, required);

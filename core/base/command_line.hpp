@@ -46,6 +46,8 @@ class CommandLine {
                   bool required = true);
   void option(const std::string& flags, std::filesystem::path& value, const std::string& help,
               bool required = false);
+  /// A word that is no file, which may be left out.
+  void word(const std::string& name, std::string& value, const std::string& help);
   /// Output files, options or positional; run() refuses those that are also inputs and those that
   /// cannot be written.
   void output(const std::string& flags, std::filesystem::path& value, const std::string& help,

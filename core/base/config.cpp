@@ -26,17 +26,6 @@ std::string shown(const toml::node& node) {
   return stream.str();
 }
 
-std::string expectation(const Range& range) {
-  const bool below = std::isfinite(range.max);
-  const bool above = std::isfinite(range.min);
-  const char* lower = range.open_min ? "above" : "at least";
-  if (above && below)
-    return fmt::format("a number {} {} and at most {}", lower, range.min, range.max);
-  if (above) return fmt::format("a number {} {}", lower, range.min);
-  if (below) return fmt::format("a number of at most {}", range.max);
-  return "a finite number";
-}
-
 bool inside(double value, const Range& range) {
   return std::isfinite(value) && value <= range.max &&
          (range.open_min ? value > range.min : value >= range.min);
@@ -54,10 +43,25 @@ std::string joined(const std::vector<std::string>& values) {
 
 }  // namespace
 
+std::string expectation(const Range& range) {
+  const bool below = std::isfinite(range.max);
+  const bool above = std::isfinite(range.min);
+  const char* lower = range.open_min ? "above" : "at least";
+  if (above && below)
+    return fmt::format("a number {} {} and at most {}", lower, range.min, range.max);
+  if (above) return fmt::format("a number {} {}", lower, range.min);
+  if (below) return fmt::format("a number of at most {}", range.max);
+  return "a finite number";
+}
+
 Config::Config(std::shared_ptr<Document> document, std::shared_ptr<Node> node)
     : document_(std::move(document)), node_(std::move(node)) {}
 
 std::string Config::where() const { return position_in_file(document_->origin, node_->table); }
+
+std::string Config::where_named() const {
+  return where() + ": " + node_->prefix.substr(0, node_->prefix.size() - 1);
+}
 
 std::string Config::where(std::string_view key) const {
   if (const auto below = fallback_of(key)) return below->where(key);
@@ -298,6 +302,10 @@ std::filesystem::path Config::path(std::string_view key) const {
   will_read(named, fmt::format("{}: {}", position_in_file(document_->origin, node), key));
   return named;
 }
+
+double Config::metre() const { return document_->metre; }
+
+void Config::set_metre(double metre) const { document_->metre = metre; }
 
 std::string Config::resolved() const {
   std::string text;

@@ -23,6 +23,9 @@ struct Range {
   static Range between(double min, double max) { return {min, max, false}; }
 };
 
+/// What a number in a range is called: "a number above 0".
+std::string expectation(const Range& range);
+
 /// One table of a TOML file. Reading a key marks it as known; `finish()` on the root refuses all
 /// other keys. Every getter throws InputError with "file:line: key: found ..., expected ...".
 class Config {
@@ -71,6 +74,11 @@ class Config {
   /// Path of a file to read, relative to the TOML file; InputError when it is also an output.
   std::filesystem::path path(std::string_view key) const;
 
+  /// The unit of lengths that have none in their key's name [m]; 1 until it is set, for all tables
+  /// of the file.
+  double metre() const;
+  void set_metre(double metre) const;
+
   /// The TOML files read: the file itself, then its bases.
   const std::vector<std::filesystem::path>& files() const;
 
@@ -84,6 +92,8 @@ class Config {
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
   /// Position of this table for messages: "file:line".
   std::string where() const;
+  /// The same with its name: "file:line: bushing[0].a".
+  std::string where_named() const;
   /// Position of a key for messages, "file:line: table.key"; of the table when it is absent.
   std::string where(std::string_view key) const;
 

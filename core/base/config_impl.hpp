@@ -19,6 +19,7 @@ struct Config::Document {
   std::string origin;                        // file name for messages
   std::filesystem::path folder;              // relative paths refer to it
   std::vector<std::filesystem::path> files;  // files read
+  double metre = 1.0;                        // lengths of the file [m]
   std::set<const toml::node*> known;         // values and tables that were read
   std::map<const toml::table*, std::set<std::string>> requested;  // keys read, found or not
   std::vector<std::pair<std::string, std::string>> resolved;      // in order of reading

@@ -2,41 +2,12 @@
 // Unknown keys, and the key that was probably meant.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "core/base/config_impl.hpp"
 #include "core/base/error.hpp"
+#include "core/base/nearest_name.hpp"
 
 namespace clatter {
 namespace {
-
-size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (size_t i = 1; i <= a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i;
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t above = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-      diagonal = above;
-    }
-  }
-  return row.back();
-}
-
-std::string nearest(const std::string& key, const std::set<std::string>& candidates) {
-  std::string best;
-  size_t best_distance = key.size() / 2 + 2;
-  for (const auto& candidate : candidates) {
-    const size_t distance = edit_distance(key, candidate);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = candidate;
-    }
-  }
-  return best;
-}
 
 /// The first key, in file order, that was never read.
 struct Unknown {
@@ -77,7 +48,7 @@ void Config::refuse_unknown(const Node& node) const {
   Unknown unknown;
   find_unknown(*node.table, node.prefix, document_->requested, document_->known, unknown);
   if (unknown.node == nullptr) return;
-  const std::string close = nearest(unknown.key, document_->requested[unknown.table]);
+  const std::string close = nearest_name(unknown.key, document_->requested[unknown.table]);
   throw InputError(fmt::format(
       "{}: {}{}: unknown key{}", position_in_file(document_->origin, unknown.node), unknown.prefix,
       unknown.key, close.empty() ? "" : fmt::format(", did you mean {}?", close)));

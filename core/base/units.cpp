@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <vector>
 
 #include "core/base/error.hpp"
 
@@ -16,24 +15,28 @@ constexpr double kInch = 25.4e-3;                // [m]
 constexpr double kPoundForce = 4.4482216152605;  // [N]
 constexpr double kSlinch = kPoundForce / kInch;  // lbf s2 / in [kg]
 
+const std::array<UnitSystem, 6> kKnown = {{
+    {"m-kg-s", 1.0, 1.0, 1.0},
+    {"mm-t-s", 1e-3, 1e3, 1.0},
+    {"mm-kg-ms", 1e-3, 1.0, 1e-3},
+    {"mm-kg-s", 1e-3, 1.0, 1.0},
+    {"cm-g-s", 1e-2, 1e-3, 1.0},
+    {"in-lbfs2/in-s", kInch, kSlinch, 1.0},
+}};
+
 }  // namespace
 
-UnitSystem unit_system_named(std::string_view name, const std::string& where) {
-  static const std::array<UnitSystem, 6> known = {{
-      {"m-kg-s", 1.0, 1.0, 1.0},
-      {"mm-t-s", 1e-3, 1e3, 1.0},
-      {"mm-kg-ms", 1e-3, 1.0, 1e-3},
-      {"mm-kg-s", 1e-3, 1.0, 1.0},
-      {"cm-g-s", 1e-2, 1e-3, 1.0},
-      {"in-lbfs2/in-s", kInch, kSlinch, 1.0},
-  }};
+std::vector<std::string> unit_system_names() {
   std::vector<std::string> names;
-  for (const UnitSystem& units : known) {
+  for (const UnitSystem& units : kKnown) names.push_back(units.name);
+  return names;
+}
+
+UnitSystem unit_system_named(std::string_view name, const std::string& where) {
+  for (const UnitSystem& units : kKnown)
     if (units.name == name) return units;
-    names.push_back(units.name);
-  }
   throw InputError(fmt::format("{}: found units '{}', expected one of: {}", where, name,
-                               fmt::join(names, ", ")));
+                               fmt::join(unit_system_names(), ", ")));
 }
 
 }  // namespace clatter

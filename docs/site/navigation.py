@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The documents of the site in reading order, and the frame of a page."""
 import html
+import pathlib
 import posixpath
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+KEYS = [(f"docs/keys/{name}.md", name) for name in ("mesh", "fe", "modes", "rom", "run", "field", "sound", "study")
+        if (ROOT / f"docs/keys/{name}.md").exists()]
 
 # Heading: [(document of the repository, or page of the C++ reference; its title)].
 NAVIGATION = {
@@ -15,6 +20,7 @@ NAVIGATION = {
                  ("tools/clatter_tools/report_page/README.md", "report")],
     "Samples": [("samples/beam/README.md", "beam"), ("samples/cpp/README.md", "cpp"),
                 ("samples/timing_drive/README.md", "timing_drive"), ("samples/truck_diesel/README.md", "truck_diesel")],
+    "Keys of TOML files": KEYS,
     "Documents": [("docs/design.md", "Design"), ("docs/effects.md", "Effects"), ("docs/formats.md", "File formats"),
                   ("docs/cards.md", "Cards and keywords"),
                   ("docs/accuracy.md", "Accuracy"), ("docs/validation.md", "Validation"), ("docs/hard-cases.md", "Hard cases"),

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/config.hpp"
+#include "core/keys/table.hpp"
 #include "dynamics/chain/belt.hpp"
 #include "dynamics/chain/link.hpp"
 #include "dynamics/chain/link_joints.hpp"
@@ -53,5 +54,7 @@ struct ChainSpec {
 };
 
 std::vector<ChainSpec> read_chain_specs(const Config& root);
+/// The keys of [[chain]].
+const keys::Table& chain_table();
 
 }  // namespace clatter::dynamics

@@ -19,51 +19,51 @@ namespace {
 constexpr double kBetween = 1e-4;
 constexpr double kFarMm = 1e6;
 
-Vector2d point_of(const Config& table, const char* key, size_t index) {
-  const std::vector<double> all = table.numbers(key);
-  return Vector2d(all[2 * index], all[2 * index + 1]) * kMilli;
+/// Refuses lists that are not x, y of so many points.
+void check_points(const Config& table, const char* key, const std::vector<double>& list,
+                  size_t least, size_t most) {
+  const size_t count = list.size() / 2;
+  if (table.has(key) && (list.size() % 2 != 0 || count < least || count > most))
+    table.fail(key, fmt::format("found {} numbers, expected x, y of {}{} points", list.size(),
+                                least == most ? "" : "at least ", least));
 }
 
-/// A list x1, y1, x2, y2, ... of points.
-std::vector<Vector2d> read_points(const Config& table, const char* key, size_t least, size_t most) {
-  const std::vector<double> all = table.numbers(key);
-  const size_t count = all.size() / 2;
-  if (all.size() % 2 != 0 || count < least || count > most)
-    table.fail(key, fmt::format("found {} numbers, expected x, y of {}{} points", all.size(),
-                                least == most ? "" : "at least ", least));
+std::vector<Vector2d> points_of(const std::vector<double>& list) {
   std::vector<Vector2d> points;
-  for (size_t i = 0; i < count; ++i) {
-    points.push_back(point_of(table, key, i));
-    if (!(points.back().lpNorm<Eigen::Infinity>() <= kFarMm * kMilli))
-      table.fail(key, fmt::format("found a number beyond {:g}", kFarMm));
-  }
+  for (size_t k = 0; k + 1 < list.size(); k += 2) points.emplace_back(list[k], list[k + 1]);
   return points;
 }
 
-ArcSegment read_arc(const Config& arc) {
-  const std::vector<Vector2d> centre = read_points(arc, "centre_mm", 1, 1);
-  const Range angle = Range::between(-1e4, 1e4);
-  const double from = arc.number("from_deg", angle), to = arc.number("to_deg", angle);
-  if (!(std::abs(to - from) <= 360.0) || from == to)
-    arc.fail("to_deg", fmt::format("found {:g}, expected within 360 of from_deg = {:g}", to, from));
-  return {centre.front(), arc.number("radius_mm", Range::between(1e-3, kFarMm)) * kMilli,
-          from * kDegree, (to - from) * kDegree};
-}
-
-Segment read_segment(const Config& table) {
-  if (const auto arc = table.find_table("arc")) return read_arc(*arc);
-  if (table.has("line_mm")) {
-    const auto points = read_points(table, "line_mm", 2, 2);
+Segment segment_of(const SegmentTable& table) {
+  if (table.arc) {
+    const ArcTable& arc = *table.arc;
+    return ArcSegment{arc.centre, arc.radius, arc.from * kDegree, (arc.to - arc.from) * kDegree};
+  }
+  if (!table.line.empty()) {
+    const auto points = points_of(table.line);
     return LineSegment{points[0], points[1]};
   }
-  if (table.has("bezier_mm")) {
-    const auto points = read_points(table, "bezier_mm", 4, 4);
+  if (!table.bezier.empty()) {
+    const auto points = points_of(table.bezier);
     return BezierSegment{{points[0], points[1], points[2], points[3]}};
   }
-  if (table.has("points_mm"))
-    return PointsSegment{read_points(table, "points_mm", 4, 100000), false, {}, {}};
-  throw InputError(table.where() +
-                   ": found no shape, expected one of arc, line_mm, bezier_mm, points_mm");
+  return PointsSegment{points_of(table.points), false, {}, {}};
+}
+
+const keys::Keys<ArcTable>& arc_keys() {
+  static const keys::Keys<ArcTable> keys("arc", "an arc", [](auto& key, ArcTable& arc) {
+    const Range angle = Range::between(-1e4, 1e4), far = Range::between(-kFarMm, kFarMm);
+    key.vector("centre_mm", arc.centre, far, "its centre, x and y").required();
+    key.number("radius_mm", arc.radius, Range::between(1e-3, kFarMm), "its radius").required();
+    key.number("from_deg", arc.from, angle, "where it begins").unconverted().required();
+    key.number("to_deg", arc.to, angle, "where it ends").unconverted().required();
+    key.check([](const Config& table, ArcTable& found) {
+      if (!(std::abs(found.to - found.from) <= 360.0) || found.from == found.to)
+        table.fail("to_deg", fmt::format("found {:g}, expected within 360 of from_deg = {:g}",
+                                         found.to, found.from));
+    });
+  });
+  return keys;
 }
 
 /// Circles along the profile: exact for arcs around which the chain turns as they turn, else small
@@ -86,18 +86,36 @@ void add_circles(const Segment& segment, const Profile& profile, double begin, d
 
 }  // namespace
 
-void read_guide(const Config& table, double height, ChainOver& over) {
+const keys::Keys<SegmentTable>& segment_keys() {
+  static const keys::Keys<SegmentTable> keys(
+      "segment", "a part of the outline of a guide", [](auto& key, SegmentTable& segment) {
+        const Range far = Range::between(-kFarMm, kFarMm);
+        key.table("arc", segment.arc, arc_keys());
+        key.numbers("line_mm", segment.line, far, "x, y of both ends of a line");
+        key.numbers("bezier_mm", segment.bezier, far,
+                    "x, y of four points of a cubic Bezier curve");
+        key.numbers("points_mm", segment.points, far,
+                    "x, y of points on a smooth curve, at least 4");
+        key.one_of({"arc", "line_mm", "bezier_mm", "points_mm"});
+        key.check([](const Config& table, SegmentTable& found) {
+          check_points(table, "line_mm", found.line, 2, 2);
+          check_points(table, "bezier_mm", found.bezier, 4, 4);
+          check_points(table, "points_mm", found.points, 4, 100000);
+        });
+      });
+  return keys;
+}
+
+void make_guide(const std::vector<SegmentTable>& tables, const std::string& where, double height,
+                ChainOver& over) {
   std::vector<Segment> segments;
-  for (const Config& one : table.tables("segment")) segments.push_back(read_segment(one));
-  if (segments.empty())
-    throw InputError(table.where() + ": found no [[chain.over.segment]], expected the shape of \"" +
-                     over.name + "\"");
+  for (const SegmentTable& one : tables) segments.push_back(segment_of(one));
   ProfileOptions options;
   options.solid = over.turn == Turn::kCounterClockwise ? ProfileOptions::Solid::kLeft
                                                        : ProfileOptions::Solid::kRight;
   options.largest_kink = 0.1;
-  over.profile = with_context(table.where("guide"),
-                              [&] { return std::make_shared<const Profile>(segments, options); });
+  over.profile =
+      with_context(where, [&] { return std::make_shared<const Profile>(segments, options); });
   double begin = 0.0;
   for (const Segment& segment : segments) {
     const double length = Profile({segment}, options).length();

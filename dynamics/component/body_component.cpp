@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/base/units.hpp"
+#include "dynamics/component/block_table.hpp"
 #include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/component/component_keys.hpp"
 #include "dynamics/component/rigid_body_component.hpp"
@@ -20,37 +20,42 @@ std::string body_size(const LoadedBody& body) {
                      std::sqrt(body.modal.omega_squared.maxCoeff()) / 6.283185307179586);
 }
 
-/// motion, drive, and the start in space.
-void read_motion(const Config& table, BodySpec& spec) {
-  const bool free = table.choice("motion", {"rest", "space"}) == "space";
-  const std::string drive = table.text_or("drive", "");
-  if (free && !drive.empty())
-    table.fail("drive", "found with motion = \"space\", expected one of both");
-  if (!drive.empty()) {
-    spec.motion = BodyMotion::kDrive;
-    spec.drive = drive;
-  }
-  if (!free) {
-    for (const char* key : {"centre_mm", "quaternion", "start_velocity_m_s", "start_spin_rad_s"})
-      if (table.has(key)) table.fail(key, "found without motion = \"space\"");
-    return;
-  }
-  spec.motion = BodyMotion::kSpace;
-  if (!spec.elastic)
+void check_body_motion(const Config& table, BodySpec& body) {
+  if (!body.drive.empty()) body.motion = BodyMotion::kDrive;
+  body.is_placed = table.has("centre_mm");
+  if (body.motion != BodyMotion::kSpace) return;
+  if (!body.elastic)
     table.fail("model", "found \"rigid\" with motion = \"space\", expected [[rigid_body]] instead");
-  if (spec.mode_limit_hz > 0.0)
+  if (body.mode_limit_hz > 0.0)
     table.fail("mode_limit_hz",
                "found with motion = \"space\", whose modes all keep their inertia: condense fewer");
-  spec.is_placed = table.has("centre_mm");
-  if (spec.is_placed) spec.start.centre = read_vector(table, "centre_mm", 1e6) * kMilli;
-  const Eigen::Vector4d q = read_quaternion(table);
-  spec.start.rotation = Eigen::Quaterniond(q(0), q(1), q(2), q(3)).normalized();
-  if (table.has("start_velocity_m_s"))
-    spec.start.velocity = read_vector(table, "start_velocity_m_s", 1e4);
-  if (table.has("start_spin_rad_s")) spec.start.spin = read_vector(table, "start_spin_rad_s", 1e6);
 }
 
 }  // namespace
+
+const Keys<BodySpec>& moving_body_keys() {
+  static const Keys<BodySpec> keys(
+      "body", "a reduced part whose frame is at rest, moves in space, or turns with a drive",
+      [](auto& key, BodySpec& body) {
+        name_row(key, body.name).required();
+        key.part(body, body_keys());
+        key.choice("motion", body.motion,
+                   {{"rest", BodyMotion::kGiven}, {"space", BodyMotion::kSpace}},
+                   "of its frame: at rest, or free in space");
+        key.text("drive", body.drive, "the [[drive]] that turns its frame").needs("motion", "rest");
+        key.all_need("motion", "space", "", [&] {
+          key.vector("centre_mm", body.start.centre, kPositionMm,
+                     "centre of mass at the start; without it that of the model");
+          quaternion_row(key, body.start.rotation);
+          key.vector("start_velocity_m_s", body.start.velocity, Range::between(-1e4, 1e4),
+                     "velocity of the centre of mass at the start");
+          key.vector("start_spin_rad_s", body.start.spin, Range::between(-1e6, 1e6),
+                     "angular velocity at the start, in the body's axes");
+        });
+        key.check(check_body_motion);
+      });
+  return keys;
+}
 
 void add_body_effect(const LoadedBody& body, EffectTable& effects) {
   const BodySpec& spec = body.spec;
@@ -116,12 +121,9 @@ void BlockComponent::add_body_effects(const ModelBuilder& model, EffectTable& ef
 ComponentList read_bodies(const Config& root) {
   ComponentList bodies;
   for (const Config& table : root.tables("body")) {
-    BodySpec spec;
-    const std::string name = read_name(table);
-    if (root.has("engine") && name == "rod")
+    const BodySpec spec = moving_body_keys().read(table);
+    if (root.has("engine") && spec.name == "rod")
       table.fail("name", "found \"rod\", which is the rod of [rod]: expected another name");
-    read_body(table, name, spec);
-    read_motion(table, spec);
     bodies.push_back(std::make_shared<BodyComponent>(spec));
   }
   return bodies;
@@ -130,8 +132,8 @@ ComponentList read_bodies(const Config& root) {
 ComponentList read_block(const Config& root) {
   const auto table = root.find_table("block");
   if (!table) return {};
-  BodySpec spec;
-  read_body(*table, "block", spec);
+  BodySpec spec = block_keys().read(*table).body;
+  spec.name = "block";
   return {std::make_shared<BlockComponent>(spec)};
 }
 

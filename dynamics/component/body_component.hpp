@@ -3,6 +3,7 @@
 // [block] and [[body]]: parts with a reduced model, in a frame at rest, in space, or on a drive.
 #include <utility>
 
+#include "core/keys/keys.hpp"
 #include "dynamics/component/component.hpp"
 #include "dynamics/integrate/spatial_body.hpp"
 
@@ -42,6 +43,9 @@ class BlockComponent : public BodyComponent {
   std::vector<BodySpec> reduced_bodies() const override;
   void add_body_effects(const ModelBuilder& model, EffectTable& effects) const override;
 };
+
+/// [[body]].
+const keys::Keys<BodySpec>& moving_body_keys();
 
 ComponentList read_bodies(const Config& root);
 ComponentList read_block(const Config& root);

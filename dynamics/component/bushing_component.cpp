@@ -2,7 +2,6 @@
 #include "dynamics/component/bushing_component.hpp"
 
 #include "dynamics/component/component_catalogue.hpp"
-#include "dynamics/component/law_table.hpp"
 #include "dynamics/force/port_element.hpp"
 #include "dynamics/force/table_bushing.hpp"
 
@@ -10,14 +9,14 @@ namespace clatter::dynamics {
 
 void BushingComponent::add_elements(ModelBuilder& model) {
   for (const BushingSpec& bushing : bushings_) {
-    const PairSpec& pair = bushing.pair;
-    PairPorts ports = ports_of(pair, model);
+    PairPorts ports = ports_of(bushing, model);
     if (bushing.law) {
-      model.system.add_element(std::make_unique<TableBushing>(pair.name, std::move(ports.a),
+      model.system.add_element(std::make_unique<TableBushing>(bushing.name, std::move(ports.a),
                                                               std::move(ports.b), *bushing.law));
     } else {
-      model.system.add_element(std::make_unique<Bushing>(
-          pair.name, std::move(ports.a), std::move(ports.b), pair.stiffness, pair.damping));
+      model.system.add_element(std::make_unique<Bushing>(bushing.name, std::move(ports.a),
+                                                         std::move(ports.b), bushing.stiffness,
+                                                         bushing.damping));
     }
   }
 }
@@ -25,7 +24,7 @@ void BushingComponent::add_elements(ModelBuilder& model) {
 std::vector<std::filesystem::path> BushingComponent::inputs() const {
   std::vector<std::filesystem::path> files;
   for (const BushingSpec& bushing : bushings_)
-    files.insert(files.end(), bushing.files.begin(), bushing.files.end());
+    if (bushing.law) files.push_back(bushing.table.file);
   return files;
 }
 
@@ -34,21 +33,22 @@ void BushingComponent::add_effects(const ModelBuilder&, EffectTable& effects) co
     effects.add(find_effect(kComponentEffects, "elastic joints"), true, "[[bushing]]", "bushing");
 }
 
+const Keys<BushingSpec>& bushing_keys() {
+  static const Keys<BushingSpec> keys(
+      "bushing", "a joint of two points with the elasticity of its bearing",
+      [](auto& key, BushingSpec& bushing) {
+        pair_rows(key, bushing);
+        radial_table_rows(key, bushing.table);
+        key.one_of({"stiffness_n_m", "table"});
+        key.check([](const Config&, BushingSpec& found) {
+          if (!found.table.file.empty()) found.law = read_radial_table(found.table, found.damping);
+        });
+      });
+  return keys;
+}
+
 ComponentList read_bushings(const Config& root) {
-  std::vector<BushingSpec> bushings;
-  for (const Config& table : root.tables("bushing")) {
-    const size_t number = bushings.size() + 1;
-    BushingSpec& bushing = bushings.emplace_back();
-    if (!table.has("table")) {
-      bushing.pair = read_pair(table, "bushing", number);
-      continue;
-    }
-    if (table.has("stiffness_n_m"))
-      table.fail("stiffness_n_m", "found beside table, expected one of the two");
-    bushing.pair = read_pair_points(table, "bushing", number);
-    bushing.law = read_radial_table(table, 0.0, bushing.files);
-  }
-  return {std::make_shared<BushingComponent>(std::move(bushings))};
+  return {std::make_shared<BushingComponent>(read_elements(root, "bushing", bushing_keys()))};
 }
 
 }  // namespace clatter::dynamics

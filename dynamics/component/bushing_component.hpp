@@ -7,17 +7,17 @@
 #include <vector>
 
 #include "dynamics/component/component.hpp"
+#include "dynamics/component/law_table.hpp"
 #include "dynamics/component/pair_spec.hpp"
-#include "dynamics/force/radial_table.hpp"
 
 namespace clatter::dynamics {
 
 /// One of them.
-struct BushingSpec {
-  PairSpec pair;
-  std::optional<RadialTable> law;  // instead of the pair's stiffness and damping
-  std::vector<std::filesystem::path> files;
+struct BushingSpec : PairSpec {
+  RadialTableSpec table;
+  std::optional<RadialTable> law;  // by the table, instead of stiffness and damping
 };
+const Keys<BushingSpec>& bushing_keys();
 
 /// All bushings of a scene: a spring and damper of the same stiffness in all directions between two
 /// points, which is a spherical joint or, between bodies in one plane, a revolute joint; or a table

@@ -4,65 +4,58 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <numbers>
 
 #include "core/base/error.hpp"
-#include "core/base/units.hpp"
 #include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/component/component_keys.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
-constexpr double kRpm = std::numbers::pi / 30.0;  // [rad/s]
-
-const Range kAngleDeg = Range::between(-1e6, 1e6), kSpeedRpm = Range::between(-1e5, 1e5);
+const Range kSpeedRpm = Range::between(-1e5, 1e5);
 
 /// The order of the speed that a torque T cos(order mean t + phase) on an inertia J makes:
 /// amplitude T / (J order mean), a quarter of a period later.
-SpeedOrder order_of_torque(const Config& one, double order, double mean, double inertia) {
-  double torque = one.number("torque_n_m", Range::between(-1e9, 1e9));
-  if (one.has("at_speed_rpm"))
-    torque *= std::pow(mean / (one.number("at_speed_rpm", Range::between(1e-6, 1e6)) * kRpm), 2);
-  const double phase = one.number_or("phase_deg", 0.0, kAngleDeg) * kDegree;
-  return {order, torque / (inertia * order * mean), phase - 0.5 * std::numbers::pi};
+SpeedOrder order_of_torque(const DriveOrder& one, const DriveSpec& spec) {
+  double torque = *one.torque;
+  if (one.at_speed) torque *= std::pow(spec.speed / *one.at_speed, 2);
+  return {one.order, torque / (*spec.inertia * one.order * spec.speed),
+          one.phase - 0.5 * std::numbers::pi};
 }
 
-SpeedOrder read_order(const Config& table, const Config& one, double mean) {
-  const double order = one.number("order", Range::between(1e-6, 1e6));
-  if (!one.has("torque_n_m"))
-    return {order, one.number("amplitude_rpm", kSpeedRpm) * kRpm,
-            one.number_or("phase_deg", 0.0, kAngleDeg) * kDegree};
-  if (one.has("amplitude_rpm"))
-    one.fail("amplitude_rpm", "found with torque_n_m, expected one of both");
-  if (mean == 0.0) table.fail("speed_rpm", "found 0 with orders of a torque, expected a speed");
-  return order_of_torque(one, order, mean,
-                         table.number("inertia_kg_m2", Range::between(1e-12, 1e12)));
+const Keys<DriveOrder>& drive_order_keys() {
+  static const Keys<DriveOrder> keys(
+      "order", "an order of the speed", [](auto& key, DriveOrder& order) {
+        key.number("order", order.order, Range::between(1e-6, 1e6), "per turn").required();
+        key.number("amplitude_rpm", order.amplitude, kSpeedRpm, "amplitude of its cosine");
+        key.number("torque_n_m", order.torque, Range::between(-1e9, 1e9),
+                   "amplitude of a torque that turns inertia_kg_m2 of the drive")
+            .shown_in("N m");
+        key.one_of({"amplitude_rpm", "torque_n_m"});
+        key.number("at_speed_rpm", order.at_speed, Range::between(1e-6, 1e6),
+                   "speed at which the torque has this amplitude: it grows with the square of the "
+                   "speed, as torques of masses do")
+            .needs("torque_n_m");
+        key.number("phase_deg", order.phase, kAngleDeg, "phase of the cosine");
+      });
+  return keys;
 }
 
-DriveSpec read_drive(const Config& table) {
-  DriveSpec spec;
-  spec.name = read_name(table);
-  spec.where = table.where();
-  if (table.has("centre_mm")) spec.centre = read_vector(table, "centre_mm", 1e6) * kMilli;
-  const std::string axis = table.choice("axis", {"x", "y", "z"});
-  spec.axis = axis[0] - 'x';
-  if (table.has("on")) spec.bearing = read_point(table, "on");
-  const double start = table.number_or("start_deg", 0.0, kAngleDeg) * kDegree;
-  if (table.has("table")) {
-    for (const char* key : {"speed_rpm", "order", "inertia_kg_m2"})
-      if (table.has(key)) table.fail(key, "found with table, expected one of both");
-    spec.table = table.path("table");
-    spec.column = table.text_or("column", "");
-    spec.start = start;
-    return spec;
-  }
-  if (table.has("column")) table.fail("column", "found without table");
-  const double mean = table.number("speed_rpm", kSpeedRpm) * kRpm;
+void make_drive(const Config& table, DriveSpec& spec) {
+  if (!spec.table.empty()) return;
   std::vector<SpeedOrder> orders;
-  for (const Config& one : table.tables("order")) orders.push_back(read_order(table, one, mean));
-  spec.drive = with_context(table.where("speed_rpm"), [&] { return Drive(mean, start, orders); });
-  return spec;
+  for (const DriveOrder& one : spec.orders) {
+    if (one.torque && spec.speed == 0.0)
+      table.fail("speed_rpm", "found 0 with orders of a torque, expected a speed");
+    if (one.torque && !spec.inertia)
+      table.fail("inertia_kg_m2", "is missing, torque_n_m of an order needs it");
+    orders.push_back(one.torque ? order_of_torque(one, spec)
+                                : SpeedOrder{one.order, *one.amplitude, one.phase});
+  }
+  spec.drive =
+      with_context(table.where("speed_rpm"), [&] { return Drive(spec.speed, spec.start, orders); });
 }
 
 /// The bearing of a shaft; nullptr: on the ground.
@@ -80,6 +73,31 @@ std::unique_ptr<NodePort> bearing_port(ModelBuilder& model, const PointSpec& bea
 }
 
 }  // namespace
+
+const Keys<DriveSpec>& drive_keys() {
+  static const Keys<DriveSpec> keys(
+      "drive", "a shaft that turns as prescribed", [](auto& key, DriveSpec& drive) {
+        key.where(drive.where);
+        name_row(key, drive.name).required();
+        key.table("on", drive.bearing, point_keys(), "its bearing; without it the ground");
+        axis_row(key, drive.axis);
+        key.vector("centre_mm", drive.centre, kPositionMm, "a point of the axis");
+        key.number("start_deg", drive.start, kAngleDeg,
+                   "angle at time 0, added to that of a table");
+        key.number("speed_rpm", drive.speed, kSpeedRpm, "mean speed");
+        key.path("table", drive.table, "CSV of speed or angle over time");
+        key.one_of({"speed_rpm", "table"});
+        key.text("column", drive.column,
+                 "column of the table in rpm, rad/s, deg or rad; without it the second one")
+            .needs("table");
+        key.tables("order", drive.orders, drive_order_keys()).needs("speed_rpm");
+        key.number("inertia_kg_m2", drive.inertia, Range::between(1e-12, 1e12),
+                   "what torques of orders turn")
+            .needs("order");
+        key.check(make_drive);
+      });
+  return keys;
+}
 
 std::vector<std::filesystem::path> DriveComponent::inputs() const {
   if (spec_.table.empty()) return {};
@@ -108,15 +126,16 @@ void DriveComponent::add_body_effects(const ModelBuilder&, EffectTable& effects)
               "[[drive]]: turns as prescribed, no body");
 }
 
-double speed_of_drive(const Config& root, const Config& table, std::string_view key) {
-  const std::string name = table.text(key);
-  for (const Config& drive : root.tables("drive")) {
-    if (drive.text_or("name", "") != name) continue;
-    if (!drive.has("speed_rpm"))
+double speed_of_drive(const Config& root, const Config& table, const std::string& key,
+                      const std::string& name) {
+  for (const Config& one : root.tables("drive")) {
+    if (one.text_or("name", "") != name) continue;
+    const DriveSpec drive = drive_keys().read(one);
+    if (!drive.table.empty())
       table.fail(key, fmt::format("found \"{}\", whose speed is a table, expected a drive with "
                                   "speed_rpm",
                                   name));
-    return drive.number("speed_rpm", kSpeedRpm) * kRpm;
+    return drive.speed;
   }
   table.fail(key, fmt::format("found \"{}\", expected the name of a [[drive]]", name));
 }
@@ -124,7 +143,7 @@ double speed_of_drive(const Config& root, const Config& table, std::string_view 
 ComponentList read_drives(const Config& root) {
   ComponentList drives;
   for (const Config& table : root.tables("drive"))
-    drives.push_back(std::make_shared<DriveComponent>(read_drive(table)));
+    drives.push_back(std::make_shared<DriveComponent>(drive_keys().read(table)));
   return drives;
 }
 

@@ -59,9 +59,18 @@ void GravityComponent::add_effects(const ModelBuilder&, EffectTable& effects) co
   effects.add(find_effect(kComponentEffects, "gravity"), gravity_ > 0.0, "gravity_m_s2");
 }
 
+const keys::Keys<GravitySpec>& gravity_keys() {
+  static const keys::Keys<GravitySpec> keys(
+      "gravity", "the weight of all bodies, along -z", [](auto& key, GravitySpec& gravity) {
+        key.shared();
+        key.number("gravity_m_s2", gravity.acceleration, Range::between(0.0, 1e5),
+                   "acceleration of gravity, along -z");
+      });
+  return keys;
+}
+
 ComponentList read_gravity(const Config& root) {
-  const double gravity = root.number_or("gravity_m_s2", 0.0, Range::between(0.0, 1e5));
-  return {std::make_shared<GravityComponent>(gravity)};
+  return {std::make_shared<GravityComponent>(gravity_keys().read(root).acceleration)};
 }
 
 }  // namespace clatter::dynamics

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // gravity_m_s2: the weight of all bodies.
+#include "core/keys/keys.hpp"
 #include "dynamics/component/component.hpp"
 
 namespace clatter::dynamics {
+
+struct GravitySpec {
+  double acceleration = 0.0;  // [m/s2]; 0: none
+};
+/// A key of the scene itself.
+const keys::Keys<GravitySpec>& gravity_keys();
 
 /// Gravity along -z on every body of the model.
 class GravityComponent : public Component {

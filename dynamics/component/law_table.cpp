@@ -21,18 +21,15 @@ CsvColumns read_columns(const RisingColumn& wanted) {
   return csv;
 }
 
-Spline read_damping(const Config& table, const std::filesystem::path& path, double fallback) {
-  if (!table.has("damping_column"))
-    return {Spline::Kind::kLinear,
-            {0.0},
-            {table.number_or("damping_n_s_m", fallback, Range::between(0.0, 1e15))}};
-  CsvColumns csv = read_columns({path, table.text("damping_column"), "m", "N s/m"});
+Spline read_damping(const RadialTableSpec& spec, double damping) {
+  if (spec.damping_column.empty()) return {Spline::Kind::kLinear, {0.0}, {damping}};
+  CsvColumns csv = read_columns({spec.file, spec.damping_column, "m", "N s/m"});
   for (size_t k = 0; k < csv.y.size(); ++k)
     if (csv.y[k] < 0.0)
       throw InputError(
           fmt::format("{}:{}: {}: found {:g} N s/m, expected a damping that is not "
                       "below 0",
-                      path.string(), csv.lines[k], csv.name, csv.y[k]));
+                      spec.file.string(), csv.lines[k], csv.name, csv.y[k]));
   return {Spline::Kind::kMonotoneCubic, std::move(csv.x), std::move(csv.y)};
 }
 
@@ -44,12 +41,8 @@ RisingTable read_rising_table(const RisingColumn& column) {
                       [&] { return RisingTable(std::move(csv.x), std::move(csv.y)); });
 }
 
-RadialTable read_radial_table(const Config& table, double damping,
-                              std::vector<std::filesystem::path>& files) {
-  files.push_back(table.path("table"));
-  const std::filesystem::path& path = files.back();
-  RisingTable force = read_rising_table({path, table.text_or("column", "force"), "m", "N"});
-  return {std::move(force), read_damping(table, path, damping)};
+RadialTable read_radial_table(const RadialTableSpec& spec, double damping) {
+  return {read_rising_table({spec.file, spec.column, "m", "N"}), read_damping(spec, damping)};
 }
 
 }  // namespace clatter::dynamics

@@ -3,9 +3,8 @@
 // Laws of joints as CSV tables.
 #include <filesystem>
 #include <string>
-#include <vector>
 
-#include "core/base/config.hpp"
+#include "dynamics/component/component_keys.hpp"
 #include "dynamics/force/radial_table.hpp"
 
 namespace clatter::dynamics {
@@ -19,9 +18,20 @@ struct RisingColumn {
 /// InputError "file:line: ..." for other units, and as RisingTable.
 RisingTable read_rising_table(const RisingColumn& column);
 
-/// A law of force over displacement: keys `table`, `column` = "force", and `damping_column` or
-/// `damping_n_s_m`, of which the default is `damping` [N s/m]. The file is appended to `files`.
-RadialTable read_radial_table(const Config& table, double damping,
-                              std::vector<std::filesystem::path>& files);
+/// A law of force over displacement, as its keys say.
+struct RadialTableSpec {
+  std::filesystem::path file;  // empty: there is none
+  std::string column = "force", damping_column;
+};
+/// Rows column, damping_column and table; the result is that of the table.
+template <class S>
+keys::Row radial_table_rows(Keys<S>& key, RadialTableSpec& law) {
+  key.text("column", law.column, "column of the force").needs("table");
+  key.text("damping_column", law.damping_column, "column of the damping, instead of damping_n_s_m")
+      .needs("table");
+  return key.path("table", law.file, "CSV of force over displacement, which rises from 0 at 0");
+}
+/// @param damping without a column of it [N s/m].
+RadialTable read_radial_table(const RadialTableSpec& spec, double damping);
 
 }  // namespace clatter::dynamics

@@ -73,32 +73,43 @@ Eigen::VectorXd force_at_centre(const ModalBody& body, const LoadSpec& load) {
          body.shapes.row(moved).transpose();
 }
 
-LoadSpec read_load(const Config& table) {
-  const Range factor = Range::between(-1e15, 1e15);
-  LoadSpec load;
-  load.where = table.where();
-  load.body = table.text("body");
-  if (table.has("load")) {
-    load.load = table.text("load");
-  } else {
-    if (table.has("set")) load.set = table.text("set");
-    const auto name = table.choice("component", {"x", "y", "z", "rx", "ry", "rz"});
-    load.component = static_cast<int>(
-        std::find(std::begin(kComponents), std::end(kComponents), name) - std::begin(kComponents));
-  }
-  if (table.has("table")) {
-    load.table = table.path("table");
-    load.column = table.text_or("column", "");
-    load.unit = table.text_or("unit", load.component < 3 ? "N" : "N m");
-    load.interpolation = read_interpolation(table, "linear");
-    load.scale = table.number_or("scale", 1.0, factor);
-  } else {
-    load.scale = table.number("value", factor);
-  }
-  return load;
-}
-
 }  // namespace
+
+const Keys<LoadSpec>& load_keys() {
+  static const Keys<LoadSpec> keys(
+      "load", "a known force over time or crank angle", [](auto& key, LoadSpec& load) {
+        const Range factor = Range::between(-1e15, 1e15);
+        key.where(load.where);
+        key.text("body", load.body, "the body on which it acts").required();
+        key.text("load", load.load, "unit load of the body's reduced model");
+        const char* has_all = "a unit load has points and directions";
+        key.text("set", load.set,
+                 "set of the reduced model on which it acts, of one node; of a "
+                 "rigid body its centre of mass without it")
+            .excludes("load", has_all);
+        key.choice("component", load.component,
+                   {{"x", 0}, {"y", 1}, {"z", 2}, {"rx", 3}, {"ry", 4}, {"rz", 5}},
+                   "force along, or moment about an axis")
+            .excludes("load", has_all);
+        key.number("value", load.value, factor,
+                   "constant force, moment, or factor of the unit load")
+            .shown_in("SI");
+        key.path("table", load.table,
+                 "CSV of it over time, with an engine or cycle_of over the crank angle");
+        key.one_of({"value", "table"});
+        key.all_need("table", {}, "", [&] {
+          key.text("column", load.column, "column of the table; without it the second one");
+          key.text("unit", load.unit, "unit of the column; N, of moments N m without it");
+          interpolation_row(key, load.interpolation);
+          key.number("scale", load.scale, factor, "factor of the table");
+        });
+        key.check([](const Config&, LoadSpec& found) {
+          if (found.value) found.scale = *found.value;
+          if (found.unit.empty()) found.unit = found.component < 3 ? "N" : "N m";
+        });
+      });
+  return keys;
+}
 
 std::vector<std::filesystem::path> LoadComponent::inputs() const {
   std::vector<std::filesystem::path> tables;
@@ -129,7 +140,7 @@ void LoadComponent::add_loads(ModelBuilder& model) {
 
 ComponentList read_loads(const Config& root) {
   std::vector<LoadSpec> loads;
-  for (const Config& table : root.tables("load")) loads.push_back(read_load(table));
+  for (const Config& table : root.tables("load")) loads.push_back(load_keys().read(table));
   return {std::make_shared<LoadComponent>(std::move(loads))};
 }
 

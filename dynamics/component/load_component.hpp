@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // [[load]]: known forces on bodies.
+#include <optional>
 #include <utility>
 
+#include "core/keys/keys.hpp"
 #include "dynamics/component/component.hpp"
 #include "dynamics/component/run_time.hpp"
 #include "dynamics/given/spline.hpp"
@@ -16,11 +18,13 @@ struct LoadSpec {
   std::string load;             // name among the model's loads, or:
   std::string set;              // a set of the model
   int component = 0;            // 0..5: x, y, z, rx, ry, rz
-  double scale = 1.0;           // factor, or the constant value when there is no table
+  std::optional<double> value;  // instead of a table
+  double scale = 1.0;           // of the table; or `value`
   std::filesystem::path table;  // over time [s], or over the crank angle in an engine scene
   std::string column, unit;
   Spline::Kind interpolation = Spline::Kind::kLinear;
 };
+const keys::Keys<LoadSpec>& load_keys();
 
 /// All loads of a scene, which grow over the ramp of the start.
 class LoadComponent : public Component {

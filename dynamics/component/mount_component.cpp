@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "dynamics/component/block_table.hpp"
 #include "dynamics/component/component_catalogue.hpp"
-#include "dynamics/component/model_builder.hpp"
+#include "dynamics/component/component_keys.hpp"
 #include "dynamics/force/mount.hpp"
 
 namespace clatter::dynamics {
@@ -16,43 +17,37 @@ std::vector<GroundSpring> springs_of(const MountSpec& mount, ModelBuilder& model
   std::vector<GroundSpring> springs;
   for (const auto& set : mount.sets) {
     for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<size_t>(axis);
-      if (mount.stiffness[a] == 0.0 && mount.damping[a] == 0.0) continue;
+      if (mount.stiffness[axis] == 0.0 && mount.damping[axis] == 0.0) continue;
       const LoadedBody& body = *find_body(model.loaded, mount.body);
       for (const int dof : with_context(mount.where + ": mount.sets",
                                         [&] { return set_dofs(body.model, set, axis, false); }))
-        springs.push_back({model.system.coordinate(model.body(mount.body), dof), mount.stiffness[a],
-                           mount.damping[a]});
+        springs.push_back({model.system.coordinate(model.body(mount.body), dof),
+                           mount.stiffness[axis], mount.damping[axis]});
     }
   }
   return springs;
 }
 
-MountSpec read_mount(const Config& table) {
-  MountSpec mount;
-  mount.where = table.where();
-  mount.body = table.text_or("body", "block");
-  mount.sets = table.texts("sets");
-  if (mount.sets.empty()) table.fail("sets", "found none, expected names of sets of the body");
-  mount.stiffness = table.numbers("stiffness_n_m", 3);
-  mount.damping =
-      table.has("damping_n_s_m") ? table.numbers("damping_n_s_m", 3) : std::vector<double>(3, 0.0);
-  bool acts = false;
-  const auto check = [&](const char* key, const std::vector<double>& values) {
-    for (const double value : values) {
-      if (!(value >= 0.0 && value <= 1e15))
-        table.fail(key, fmt::format("found {}, expected at least 0 and at most 1e+15", value));
-      acts = acts || value > 0.0;
-    }
-  };
-  check("stiffness_n_m", mount.stiffness);
-  check("damping_n_s_m", mount.damping);
-  if (!acts)
-    table.fail("stiffness_n_m", "found 0 everywhere, expected a stiffness or damping above 0");
-  return mount;
-}
-
 }  // namespace
+
+const Keys<MountSpec>& mount_keys() {
+  static const Keys<MountSpec> keys(
+      "mount", "springs and dampers between nodes of a reduced part and the ground",
+      [](auto& key, MountSpec& mount) {
+        key.where(mount.where);
+        key.text("body", mount.body, "the part");
+        key.texts("sets", mount.sets, "sets of its nodes").required();
+        key.vector("stiffness_n_m", mount.stiffness, kAnyDamping, "of each node, along x, y, z")
+            .required();
+        key.vector("damping_n_s_m", mount.damping, kAnyDamping, "of each node, along x, y, z");
+        key.check([](const Config& table, MountSpec& found) {
+          if (found.stiffness.isZero(0.0) && found.damping.isZero(0.0))
+            table.fail("stiffness_n_m",
+                       "found 0 everywhere, expected a stiffness or damping above 0");
+        });
+      });
+  return keys;
+}
 
 void MountComponent::add_elements(ModelBuilder& model) {
   int count = 0;
@@ -84,9 +79,8 @@ void MountComponent::add_effects(const ModelBuilder&, EffectTable& effects) cons
 
 ComponentList read_mounts(const Config& root) {
   std::vector<MountSpec> mounts;
-  for (const Config& table : root.tables("mount")) mounts.push_back(read_mount(table));
-  const auto block = root.find_table("block");
-  const bool resting = block && block->choice("model", {"elastic", "rigid"}) == "rigid";
+  for (const Config& table : root.tables("mount")) mounts.push_back(mount_keys().read(table));
+  const bool resting = root.has("block") && !has_elastic_block(root);
   return {std::make_shared<MountComponent>(std::move(mounts), resting)};
 }
 

@@ -3,17 +3,19 @@
 // [[mount]]: springs and dampers between nodes of a body and the ground.
 #include <utility>
 
+#include "core/keys/keys.hpp"
 #include "dynamics/component/component.hpp"
 
 namespace clatter::dynamics {
 
 /// One [[mount]].
 struct MountSpec {
-  std::string body, where;
+  std::string body = "block", where;
   std::vector<std::string> sets;
-  std::vector<double> stiffness;  // x, y, z [N/m]
-  std::vector<double> damping;    // x, y, z [N s/m]
+  Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();  // x, y, z [N/m]
+  Eigen::Vector3d damping = Eigen::Vector3d::Zero();    // x, y, z [N s/m]
 };
+const keys::Keys<MountSpec>& mount_keys();
 
 /// All mounts of a scene: elements "mount 1", "mount 2", ..., without those of a block that is not
 /// simulated.

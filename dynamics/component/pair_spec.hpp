@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/config.hpp"
-#include "dynamics/component/model_builder.hpp"
+#include "dynamics/component/component_keys.hpp"
 
 namespace clatter::dynamics {
 
@@ -19,11 +18,22 @@ struct PairSpec {
   double damping = 0.0;    // [N s/m]
 };
 
-/// The keys of the table `number` (from 1) of `kind`: name, a, b, stiffness_n_m, damping_n_s_m.
-PairSpec read_pair(const Config& table, const std::string& kind, size_t number);
-
-/// The keys name, a and b of it.
-PairSpec read_pair_points(const Config& table, const std::string& kind, size_t number);
+/// Rows name, a, b, stiffness_n_m and damping_n_s_m, of which one acts, unless a table does. The
+/// result is that of the stiffness.
+template <class S>
+keys::Row pair_rows(Keys<S>& key, S& pair) {
+  name_row(key, pair.name);
+  key.table("a", pair.a, point_keys(), "point of the first body").required();
+  key.table("b", pair.b, point_keys(),
+            "point of the second body; without position where a is at the start")
+      .required();
+  key.check([](const Config& table, S& found) {
+    if (table.has("stiffness_n_m") && found.stiffness == 0.0 && found.damping == 0.0)
+      table.fail("stiffness_n_m", "found 0 and no damping, expected one of both above 0");
+  });
+  key.number("damping_n_s_m", pair.damping, kAnyDamping, "damping");
+  return key.number("stiffness_n_m", pair.stiffness, kAnyStiffness, "stiffness");
+}
 
 /// The ports of both; b is at the same point as a at the start where it gives none.
 struct PairPorts {

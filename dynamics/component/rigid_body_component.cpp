@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/error.hpp"
@@ -19,6 +20,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Freedom = RigidBodySpec::Freedom;
+using Path = RigidBodySpec::Path;
 
 constexpr double kOffPlane = 1e-6;  // [m]: points of a body in a plane may be so far beside it
 
@@ -46,50 +48,70 @@ void set_scales(const RigidBodySpec& spec, ModalBody& body) {
   body.velocity_scale = spec.velocity_scale;
 }
 
-/// axis and guide of a body that slides, and its velocity, which is along the axis.
-void read_slide(const Config& table, RigidBodySpec& spec) {
-  spec.axis = read_direction(table, "axis");
-  if (table.has("guide")) spec.guide = read_point(table, "guide");
-  if (spec.guide.body == spec.name)
-    table.fail("guide", fmt::format("found \"{}\" itself, expected another body", spec.name));
-  const Vector3d across = spec.velocity - spec.axis.dot(spec.velocity) * spec.axis;
-  if (across.norm() > 1e-6 * spec.velocity.norm())
+/// What depends on the motion: how many numbers, and velocities along the axis of a slide.
+void check_rigid_motion(const Config& table, RigidBodySpec& body) {
+  if (body.path == Path::kSpace) body.motion = Freedom::kSpace;
+  if (body.path == Path::kSlide) body.motion = Freedom::kSlide;
+  if (body.motion == Freedom::kPlane) body.normal = static_cast<int>(body.path);
+  const auto count = [&](const char* key, const std::vector<double>& found) {
+    const size_t wanted = body.motion == Freedom::kSpace ? 3 : 1;
+    if (!found.empty() && found.size() != wanted)
+      table.fail(key, fmt::format("found {} numbers, expected {}", found.size(),
+                                  wanted == 1 ? "one about the axis across the plane" : "3"));
+  };
+  count("inertia_kg_m2", body.moments);
+  count("start_spin_rad_s", body.spins);
+  std::copy(body.moments.begin(), body.moments.end(), body.inertia.data());
+  std::copy(body.spins.begin(), body.spins.end(), body.spin.data());
+  if (body.motion != Freedom::kSlide) return;
+  if (body.guide.body == body.name)
+    table.fail("guide", fmt::format("found \"{}\" itself, expected another body", body.name));
+  const Vector3d across = body.velocity - body.axis.dot(body.velocity) * body.axis;
+  if (across.norm() > 1e-6 * body.velocity.norm())
     table.fail(
         "start_velocity_m_s",
         fmt::format("found {:g} m/s across the axis, expected a velocity along it", across.norm()));
 }
 
-RigidBodySpec read_rigid_body(const Config& table) {
-  const Range moment = Range::between(1e-15, 1e12);
-  const auto three = [&](const char* key, double limit) -> Vector3d {
-    return table.has(key) ? read_vector(table, key, limit) : Vector3d::Zero();
-  };
-  RigidBodySpec spec;
-  spec.name = read_name(table);
-  spec.where = table.where();
-  const std::string motion = table.choice("motion", {"xy", "yz", "zx", "space", "slide"});
-  spec.normal = motion == "yz" ? 0 : motion == "zx" ? 1 : 2;
-  if (motion == "space") spec.motion = Freedom::kSpace;
-  if (motion == "slide") spec.motion = Freedom::kSlide;
-  spec.mass = table.number("mass_kg", Range::between(1e-9, 1e9));
-  if (spec.motion != Freedom::kSlide) spec.centre = three("centre_mm", 1e6) * kMilli;
-  spec.velocity = three("start_velocity_m_s", 1e4);
-  if (spec.motion == Freedom::kSlide) {
-    read_slide(table, spec);
-  } else if (spec.motion == Freedom::kPlane) {
-    spec.inertia(0) = table.number("inertia_kg_m2", moment);
-    spec.angle = table.number_or("angle_deg", 0.0, Range::between(-1e6, 1e6)) * kDegree;
-    spec.spin(0) = table.number_or("start_spin_rad_s", 0.0, Range::between(-1e6, 1e6));
-  } else {
-    spec.inertia = read_vector(table, "inertia_kg_m2", moment.max);
-    spec.spin = three("start_spin_rad_s", 1e6);
-    spec.quaternion = read_quaternion(table);
-  }
-  read_error_scales(table, spec);
-  return spec;
-}
-
 }  // namespace
+
+const Keys<RigidBodySpec>& rigid_body_keys() {
+  static const Keys<RigidBodySpec> keys(
+      "rigid_body", "a rigid body with large motion, in a plane or in space",
+      [](auto& key, RigidBodySpec& body) {
+        const keys::Values turns{"xy", "yz", "zx", "space"}, plane{"xy", "yz", "zx"};
+        key.where(body.where);
+        name_row(key, body.name).required();
+        key.choice("motion", body.path,
+                   {{"xy", Path::kXy},
+                    {"yz", Path::kYz},
+                    {"zx", Path::kZx},
+                    {"space", Path::kSpace},
+                    {"slide", Path::kSlide}},
+                   "in a plane, in space, or along an axis");
+        key.number("mass_kg", body.mass, Range::between(1e-9, 1e9), "mass").required();
+        key.one_or_more("inertia_kg_m2", body.moments, Range::between(1e-15, 1e12),
+                        "moment of inertia about the centre of mass, in space the three principal "
+                        "ones")
+            .of("motion", turns);
+        key.vector("centre_mm", body.centre, kPositionMm, "centre of mass at the start")
+            .needs("motion", turns, "a slide has no position of its own");
+        key.number("angle_deg", body.angle, kAngleDeg, "angle at the start").needs("motion", plane);
+        quaternion_row(key, body.attitude).needs("motion", "space");
+        key.vector("start_velocity_m_s", body.velocity, Range::between(-1e4, 1e4),
+                   "velocity at the start");
+        key.one_or_more("start_spin_rad_s", body.spins, Range::between(-1e6, 1e6),
+                        "angular velocity at the start, in space three numbers in the body's axes")
+            .needs("motion", turns);
+        key.direction("axis", body.axis, "axis of a slide").of("motion", "slide");
+        key.table("guide", body.guide, point_keys(),
+                  "point that a slide follows across its axis; without it the ground")
+            .needs("motion", "slide");
+        error_scale_rows(key, body);
+        key.check(check_rigid_motion);
+      });
+  return keys;
+}
 
 ComponentSize RigidBodyComponent::size() const {
   const int modes = spec_.motion == Freedom::kSlide   ? 1
@@ -170,8 +192,7 @@ void RigidBodyComponent::add_planar(ModelBuilder& model) {
 void RigidBodyComponent::add_spatial(ModelBuilder& model) {
   SpatialMotion start;
   start.centre = spec_.centre;
-  const Eigen::Vector4d& q = spec_.quaternion;
-  start.rotation = Eigen::Quaterniond(q(0), q(1), q(2), q(3)).normalized();
+  start.rotation = spec_.attitude;
   start.velocity = spec_.velocity;
   start.spin = spec_.spin;
   ModalBody body = with_context(
@@ -234,7 +255,7 @@ void RigidBodyComponent::record(const System&, const StageState& state, History&
 ComponentList read_rigid_bodies(const Config& root) {
   ComponentList bodies;
   for (const Config& table : root.tables("rigid_body"))
-    bodies.push_back(std::make_shared<RigidBodyComponent>(read_rigid_body(table)));
+    bodies.push_back(std::make_shared<RigidBodyComponent>(rigid_body_keys().read(table)));
   return bodies;
 }
 

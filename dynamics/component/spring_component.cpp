@@ -2,7 +2,6 @@
 #include "dynamics/component/spring_component.hpp"
 
 #include "core/base/error.hpp"
-#include "core/base/units.hpp"
 #include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/force/port_element.hpp"
 
@@ -27,14 +26,19 @@ void SpringComponent::add_effects(const ModelBuilder&, EffectTable& effects) con
     effects.add(find_effect(kComponentEffects, "springs"), true, "[[spring]]", "spring");
 }
 
+const Keys<SpringSpec>& spring_keys() {
+  static const Keys<SpringSpec> keys(
+      "spring", "a spring and damper along the line between two points",
+      [](auto& key, SpringSpec& spring) {
+        pair_rows(key, spring).required();
+        key.number("length_mm", spring.length, Range::between(0.0, 1e6), "without force")
+            .required();
+      });
+  return keys;
+}
+
 ComponentList read_springs(const Config& root) {
-  std::vector<SpringSpec> springs;
-  for (const Config& table : root.tables("spring")) {
-    SpringSpec spring{read_pair(table, "spring", springs.size() + 1)};
-    spring.length = table.number("length_mm", Range::between(0.0, 1e6)) * kMilli;
-    springs.push_back(spring);
-  }
-  return {std::make_shared<SpringComponent>(std::move(springs))};
+  return {std::make_shared<SpringComponent>(read_elements(root, "spring", spring_keys()))};
 }
 
 }  // namespace clatter::dynamics

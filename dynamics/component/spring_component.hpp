@@ -12,6 +12,7 @@ namespace clatter::dynamics {
 struct SpringSpec : PairSpec {
   double length = 0.0;  // without force [m]
 };
+const Keys<SpringSpec>& spring_keys();
 
 /// All springs of a scene.
 class SpringComponent : public Component {

@@ -16,54 +16,6 @@ namespace {
 /// Of positions given as decimal numbers: a point so far behind the plane is on it [m].
 constexpr double kRounding = 1e-9;
 
-FrictionLaw read_friction(const Config& table) {
-  FrictionLaw law;
-  if (!table.has("friction")) {
-    for (const char* key : {"static_friction", "slip_speed_m_s"})
-      if (table.has(key)) table.fail(key, "found without friction");
-    return law;
-  }
-  law.kinetic = table.number("friction", Range::between(0.0, 10.0));
-  law.at_rest = table.number_or("static_friction", law.kinetic, Range::between(0.0, 10.0));
-  if (law.at_rest < law.kinetic)
-    table.fail("static_friction", fmt::format("found {:g}, expected at least friction, {:g}",
-                                              law.at_rest, law.kinetic));
-  law.slip_speed = table.number_or("slip_speed_m_s", law.slip_speed, Range::between(1e-9, 1e3));
-  return law;
-}
-
-StopSpec read_stop(const Config& table, size_t number) {
-  const Range stiffness = Range::between(1e-3, 1e20);
-  StopSpec stop;
-  stop.name = "stop " + (table.has("name") ? read_name(table) : fmt::format("{}", number));
-  stop.where = table.where();
-  stop.a = read_point(table, "a");
-  stop.b = read_point(table, "b");
-  stop.normal = read_vector(table, "normal", 1e6);
-  if (!(stop.normal.norm() > 0.0)) table.fail("normal", "found length 0, expected a direction");
-  stop.normal.normalize();
-  if (table.has("restitution")) {
-    for (const char* key :
-         {"stiffness_n_m", "exponent", "chi_s_m", "friction", "static_friction", "slip_speed_m_s"})
-      if (table.has(key))
-        table.fail(key,
-                   "found with restitution, whose contact is rigid and without friction; a "
-                   "compliant one has stiffness_n_m instead");
-    stop.restitution = table.number("restitution", Range::between(0.0, 1.0));
-    stop.rest_stiffness = table.number_or("rest_stiffness_n_m", 1e8, stiffness);
-    return stop;
-  }
-  if (!table.has("stiffness_n_m"))
-    table.fail("stiffness_n_m", "found neither this nor restitution, expected one of both");
-  if (table.has("rest_stiffness_n_m"))
-    table.fail("rest_stiffness_n_m", "found without restitution");
-  stop.stiffness = table.number("stiffness_n_m", stiffness);
-  stop.exponent = table.number_or("exponent", 1.0, Range::between(1.0, 4.0));
-  stop.chi = table.number_or("chi_s_m", 0.0, Range::between(0.0, 1e9));
-  stop.friction = read_friction(table);
-  return stop;
-}
-
 PortState at_start(const ModelBuilder& model, const Port& port) {
   const System& system = model.system;
   system.start_frames(model.time.begin);
@@ -98,6 +50,51 @@ std::unique_ptr<Stop> make_stop(const StopSpec& stop, ModelBuilder& model,
 
 }  // namespace
 
+const Keys<StopSpec>& stop_keys() {
+  static const Keys<StopSpec> keys(
+      "stop", "contact of a point with a plane, rigid by impacts or compliant",
+      [](auto& key, StopSpec& stop) {
+        const Range stiffness = Range::between(1e-3, 1e20), coefficient = Range::between(0.0, 10.0);
+        key.where(stop.where);
+        name_row(key, stop.name);
+        key.table("a", stop.a, point_keys(), "the point").required();
+        key.table("b", stop.b, point_keys(), "a point of the plane, which moves with its body")
+            .required();
+        key.direction("normal", stop.normal, "normal of the plane at the start, to the side of a")
+            .required();
+        key.number("restitution", stop.restitution, Range::between(0.0, 1.0),
+                   "of a rigid contact: speed after over speed before an impact");
+        key.number("rest_stiffness_n_m", stop.rest_stiffness, stiffness,
+                   "of a rigid contact: spring that holds a point where impacts have died out")
+            .needs("restitution");
+        key.number("stiffness_n_m", stop.stiffness, stiffness,
+                   "of a compliant contact: force over depth^exponent")
+            .shown_in("N/m^exponent");
+        key.one_of({"stiffness_n_m", "restitution"});
+        key.all_need("stiffness_n_m", {}, "a rigid contact has neither depth nor friction", [&] {
+          key.number("exponent", stop.exponent, Range::between(1.0, 4.0), "of the depth");
+          key.number("chi_s_m", stop.chi, Range::between(0.0, 1e9),
+                     "damping by the rate of the depth: the force is times 1 + chi rate");
+          key.number("friction", stop.friction.kinetic, coefficient, "coefficient of friction");
+        });
+        key.number("static_friction", stop.static_friction, coefficient,
+                   "coefficient before the point slides; that of friction without it")
+            .needs("friction");
+        key.number("slip_speed_m_s", stop.friction.slip_speed, Range::between(1e-9, 1e3),
+                   "speed of creep at which friction is that before sliding")
+            .needs("friction");
+        key.check([](const Config& table, StopSpec& found) {
+          FrictionLaw& law = found.friction;
+          law.at_rest = found.static_friction.value_or(law.kinetic);
+          if (law.at_rest < law.kinetic)
+            table.fail("static_friction",
+                       fmt::format("found {:g}, expected at least friction, {:g}", law.at_rest,
+                                   law.kinetic));
+        });
+      });
+  return keys;
+}
+
 void StopComponent::add_elements(ModelBuilder& model) {
   for (const StopSpec& stop : stops_) model.system.add_element(make_stop(stop, model, rigid_));
 }
@@ -127,10 +124,7 @@ void StopComponent::add_effects(const ModelBuilder&, EffectTable& effects) const
 }
 
 ComponentList read_stops(const Config& root) {
-  std::vector<StopSpec> stops;
-  for (const Config& table : root.tables("stop"))
-    stops.push_back(read_stop(table, stops.size() + 1));
-  return {std::make_shared<StopComponent>(std::move(stops))};
+  return {std::make_shared<StopComponent>(read_elements(root, "stop", stop_keys()))};
 }
 
 }  // namespace clatter::dynamics

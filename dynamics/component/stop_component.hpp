@@ -7,22 +7,24 @@
 #include <vector>
 
 #include "dynamics/component/component.hpp"
-#include "dynamics/component/model_builder.hpp"
+#include "dynamics/component/component_keys.hpp"
 #include "dynamics/force/stop.hpp"
 
 namespace clatter::dynamics {
 
 /// One [[stop]].
 struct StopSpec {
-  std::string name, where;            // "stop 1", or with its own name, "stop table"
-  PointSpec a, b;                     // the point; a point of the plane
-  Eigen::Vector3d normal;             // at the start, to the side of a
-  std::optional<double> restitution;  // a rigid contact; else a compliant one
-  double rest_stiffness = 0.0;        // of a rigid contact, where it comes to rest [N/m]
-  double stiffness = 0.0;             // [N/m^exponent]
-  double exponent = 1.0, chi = 0.0;   // [1], [s/m]
+  std::string name, where;  // "stop 1", or with its own name, "stop table"
+  PointSpec a, b;           // the point; a point of the plane
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // at the start, to the side of a
+  std::optional<double> restitution;                  // a rigid contact; else a compliant one
+  double rest_stiffness = 1e8;       // of a rigid contact, where it comes to rest [N/m]
+  double stiffness = 0.0;            // [N/m^exponent]
+  double exponent = 1.0, chi = 0.0;  // [1], [s/m]
   FrictionLaw friction;
+  std::optional<double> static_friction;  // of it; else its kinetic one
 };
+const Keys<StopSpec>& stop_keys();
 
 /// All stops of a scene.
 class StopComponent : public Component {

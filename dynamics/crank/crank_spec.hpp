@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/config.hpp"
+#include "core/keys/table.hpp"
 #include "dynamics/body/crank_body.hpp"
 #include "dynamics/crank/journal_film.hpp"
 #include "dynamics/given/crank.hpp"
@@ -74,5 +75,7 @@ struct CrankSpec {
 /// The crankshaft of the scene `root`, none without [crank]. InputError for keys that do not belong
 /// to its bearings and speed.
 std::optional<CrankSpec> read_crankshaft(const Config& root);
+/// The keys of [crank].
+const keys::Table& crank_table();
 
 }  // namespace clatter::dynamics

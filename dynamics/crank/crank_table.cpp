@@ -1,126 +1,183 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fmt/format.h>
+#include <map>
 
-#include <numbers>
-#include <set>
-#include <utility>
-
-#include "core/base/units.hpp"
+#include "dynamics/component/block_table.hpp"
 #include "dynamics/component/component_keys.hpp"
 #include "dynamics/component/crank_keys.hpp"
+#include "dynamics/component/engine_table.hpp"
 #include "dynamics/crank/crank_spec.hpp"
 #include "dynamics/shaft/shaft_spec.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
-constexpr double kRpm = std::numbers::pi / 30.0;  // [rad/s]
-const Range kPosition = Range::between(-1e6, 1e6), kDampingRange = Range::between(0.0, 1e15);
-const Range kTorque = Range::between(-1e9, 1e9);
-
-JournalFilmOptions read_film(const Config& table) {
+/// A bearing by the keys of all laws, of which `model` says the one that holds.
+struct CrankBearingTable : CrankBearingSpec {
+  enum class Model : char { kLinear, kTable, kButenschoen, kMoes, kFilm };
+  Model model = Model::kLinear;
+  double stiffness = 0.0, damping = 0.0;  // [N/m], [N s/m]
+  std::filesystem::path table;
+  std::string column;
   JournalFilmOptions film;
-  film.size = read_bearing_size(table);
-  film.cells_around = static_cast<int>(
-      table.integer_or("cells_around", film.cells_around, Range::between(12, 2000)));
-  film.cells_along =
-      static_cast<int>(table.integer_or("cells_along", film.cells_along, Range::between(2, 200)));
-  film.groove = table.number_or("groove_deg", 0.0, Range::between(-360.0, 360.0)) * kDegree;
-  film.supply_pressure =
-      table.number_or("supply_bar", film.supply_pressure * 1e-5, Range::between(0.0, 1e3)) * 1e5;
-  film.bulk_modulus =
-      table.number_or("bulk_modulus_mpa", film.bulk_modulus * 1e-6, Range::between(0.0, 1e6)) * 1e6;
-  film.cavitation = table.flag_or("cavitation", film.cavitation);
-  return film;
+};
+
+void choose_law(const Config& table, CrankBearingTable& bearing) {
+  using Model = CrankBearingTable::Model;
+  switch (bearing.model) {
+    case Model::kLinear:
+      bearing.law = LinearBearingSpec{bearing.stiffness, bearing.damping};
+      return;
+    case Model::kTable:
+      bearing.law = TableBearingSpec{bearing.table, bearing.column, bearing.damping};
+      return;
+    case Model::kFilm:
+      bearing.law = bearing.film;
+      break;
+    case Model::kMoes:
+      bearing.law = ImpedanceSpec{bearing.film.size, BearingModel::kMoes};
+      break;
+    case Model::kButenschoen:
+      bearing.law = ImpedanceSpec{bearing.film.size, BearingModel::kButenschoen};
+      break;
+  }
+  check_bearing_width(table, bearing.film.size);
 }
 
-CrankBearingSpec read_crank_bearing(const Config& table, bool on_block) {
-  CrankBearingSpec bearing;
-  bearing.name = read_name(table);
-  bearing.where = table.where();
-  if (on_block) {
-    if (!table.has("set"))
-      table.fail("set", "found nothing, expected a set of the block, on which the bearing acts");
-    bearing.set = table.text("set");
-  } else if (table.has("set")) {
-    // A rigid block is the ground and has no sets: the key may be that of a base scene.
-    static_cast<void>(table.text("set"));
-  }
-  if (table.has("at_mm")) bearing.at = table.number("at_mm", kPosition) * kMilli;
-  if (!on_block && !bearing.at)
-    table.fail("at_mm", "found nothing, expected the bearing's x: there is no elastic block");
-  const std::string model =
-      table.choice("model", {"linear", "table", "butenschoen", "moes", "film"});
-  if (model == "linear") {
-    bearing.law = LinearBearingSpec{table.number("stiffness_n_m", Range::between(1e-3, 1e20)),
-                                    table.number_or("damping_n_s_m", 0.0, kDampingRange)};
-  } else if (model == "table") {
-    bearing.law = TableBearingSpec{table.path("table"), table.text_or("column", ""),
-                                   table.number_or("damping_n_s_m", 0.0, kDampingRange)};
-  } else if (model == "film") {
-    bearing.law = read_film(table);
-  } else {
-    bearing.law = ImpedanceSpec{read_bearing_size(table),
-                                model == "moes" ? BearingModel::kMoes : BearingModel::kButenschoen};
-  }
-  return bearing;
+const Keys<CrankBearingTable>& crank_bearing_keys() {
+  using Model = CrankBearingTable::Model;
+  static const Keys<CrankBearingTable> keys(
+      "bearing", "a main bearing", [](auto& key, CrankBearingTable& bearing) {
+        JournalFilmOptions& film = bearing.film;
+        key.where(bearing.where);
+        name_row(key, bearing.name).required();
+        key.text("set", bearing.set, "set of an elastic block on which it acts, on the crank axis");
+        key.number("at_mm", bearing.at, kPositionMm, "its x; without it that of the set");
+        key.choice("model", bearing.model,
+                   {{"linear", Model::kLinear},
+                    {"table", Model::kTable},
+                    {"butenschoen", Model::kButenschoen},
+                    {"moes", Model::kMoes},
+                    {"film", Model::kFilm}},
+                   "a spring, a table, an oil film by one of two formulas or on a grid");
+        key.number("stiffness_n_m", bearing.stiffness, Range::between(1e-3, 1e20), "of the spring")
+            .of("model", "linear");
+        key.path("table", bearing.table,
+                 "CSV of the radial force over the eccentricity, which rises from 0 at 0")
+            .of("model", "table");
+        key.text("column", bearing.column, "column of the table; without it the second one")
+            .needs("table");
+        key.number("damping_n_s_m", bearing.damping, kAnyDamping, "of spring and table")
+            .needs("model", {"linear", "table"});
+        bearing_size_rows(key, film.size, {"butenschoen", "moes", "film"});
+        key.all_need("model", "film", "", [&] {
+          key.integer("cells_around", film.cells_around, Range::between(12.0, 2000.0),
+                      "cells of the grid around");
+          key.integer("cells_along", film.cells_along, Range::between(2.0, 200.0),
+                      "cells of the grid along half of the width");
+          key.number("groove_deg", film.groove, Range::between(-360.0, 360.0),
+                     "angle of the supply groove from +z about +x");
+          key.number("supply_bar", film.supply_pressure, Range::between(0.0, 1e3),
+                     "pressure of the oil in the groove over that at the ends");
+          key.number("bulk_modulus_mpa", film.bulk_modulus, Range::between(0.0, 1e6),
+                     "bulk modulus of the oil; 0: incompressible");
+          key.flag("cavitation", film.cavitation,
+                   "the film ruptures, with conservation of mass; else it is full everywhere");
+        });
+        key.check(choose_law);
+      });
+  return keys;
 }
 
-CrankLoadSpec read_crank_load(const Config& table, const CrankClock& clock) {
-  CrankLoadSpec load;
-  const std::string law = table.choice("law", {"mean", "constant", "speed", "table"});
-  if (law == "table") {
-    load.law = CrankLoadSpec::Law::kTable;
-    load.table = table.path("table");
-    load.column = table.text_or("column", "");
-    load.interpolation = read_interpolation(table, "cubic");
-    return load;
+const Keys<UnbalanceSpec>& unbalance_keys() {
+  static const Keys<UnbalanceSpec> keys(
+      "unbalance", "a mass beside the axis, part of the crankshaft's",
+      [](auto& key, UnbalanceSpec& unbalance) {
+        key.number("at_mm", unbalance.at, kPositionMm, "its x").required();
+        key.number("moment_kg_m", unbalance.moment, Range::between(0.0, 1e6),
+                   "mass times distance from the axis")
+            .required();
+        key.number("angle_deg", unbalance.angle, Range::between(-720.0, 720.0),
+                   "from +z at crank angle 0, about +x");
+      });
+  return keys;
+}
+
+const Keys<CrankLoadSpec>& crank_load_keys() {
+  using Law = CrankLoadSpec::Law;
+  static const Keys<CrankLoadSpec> keys(
+      "load", "the torque against a free crank", [](auto& key, CrankLoadSpec& load) {
+        key.choice("law", load.law,
+                   {{"mean", Law::kMean},
+                    {"constant", Law::kConstant},
+                    {"speed", Law::kSpeed},
+                    {"table", Law::kTable}},
+                   "what keeps the mean speed, a constant, by the square of the speed, or a table");
+        key.number("torque_n_m", load.torque, Range::between(-1e9, 1e9),
+                   "the torque; of the mean in the first cycle, 0 without it")
+            .shown_in("N m")
+            .needs("law", {"mean", "constant", "speed"})
+            .required_with("law", {"constant", "speed"});
+        key.number("at_speed_rpm", load.at_speed, Range::between(0.01, 1e6),
+                   "speed at which it is torque_n_m; that of the engine without it")
+            .needs("law", "speed");
+        key.path("table", load.table, "CSV of the torque over the crank angle").of("law", "table");
+        key.text("column", load.column, "column of the table; without it the second one")
+            .needs("table");
+        interpolation_row(key, load.interpolation).needs("table");
+      });
+  return keys;
+}
+
+struct CrankTable : CrankSpec {
+  std::vector<CrankBearingTable> described;
+};
+
+const Keys<CrankTable>& crank_keys() {
+  static const Keys<CrankTable> keys(
+      "crank", "the crankshaft as a body in main bearings, its rotation prescribed or free",
+      [](auto& key, CrankTable& crank) {
+        key.part(crank.body, crank_body_keys());
+        key.tables("bearing", crank.described, crank_bearing_keys());
+        key.tables("unbalance", crank.unbalances, unbalance_keys()).needs("bearing");
+        key.table("load", crank.load, crank_load_keys())
+            .needs("speed", "free", "with a prescribed speed the torque is a result");
+      });
+  return keys;
+}
+
+void check_bearings(const Config& crank, const std::vector<CrankBearingSpec>& bearings,
+                    bool on_block) {
+  const std::vector<Config> tables = crank.tables("bearing");
+  std::map<std::string, std::string> names;
+  for (size_t k = 0; k < bearings.size(); ++k) {
+    check_new_name(tables[k], "bearing", bearings[k].name, names);
+    if (on_block && bearings[k].set.empty())
+      tables[k].fail("set",
+                     "found nothing, expected a set of the block, on which the bearing acts");
+    if (!on_block && !bearings[k].at)
+      tables[k].fail("at_mm", "found nothing, expected the bearing's x: there is no elastic block");
   }
-  if (law == "mean") {
-    load.torque = table.number_or("torque_n_m", 0.0, kTorque);
-    return load;
-  }
-  load.torque = table.number("torque_n_m", kTorque);
-  load.law = law == "constant" ? CrankLoadSpec::Law::kConstant : CrankLoadSpec::Law::kSpeed;
-  if (law == "speed")
-    load.at_speed =
-        table.number_or("at_speed_rpm", clock.speed / kRpm, Range::between(0.01, 1e6)) * kRpm;
-  return load;
 }
 
 }  // namespace
 
+const keys::Table& crank_table() { return crank_keys().table(); }
+
 std::optional<CrankSpec> read_crankshaft(const Config& root) {
   const auto table = root.find_table("crank");
   if (!table) return std::nullopt;
-  const Config engine = root.table("engine");
-  CrankSpec crank;
-  crank.body = *read_crank_body(root);
-  crank.clock = read_crank_clock(engine);
-  if (engine.choice("rotation", {"forward", "backward"}) == "backward")
-    crank.rotation = Rotation::kBackward;
-  const auto block = root.find_table("block");
-  const bool on_block = block && block->choice("model", {"elastic", "rigid"}) == "elastic";
-  std::set<std::string> names;
-  for (const Config& one : table->tables("bearing")) {
-    crank.bearings.push_back(read_crank_bearing(one, on_block));
-    if (!names.insert(crank.bearings.back().name).second)
-      one.fail("name", fmt::format("found a second \"{}\", expected each name once",
-                                   crank.bearings.back().name));
-  }
-  if (table->has("unbalance") && !crank.body.in_bearings)
-    table->fail("unbalance", "found without [[crank.bearing]], which it loads");
-  for (const Config& one : table->tables("unbalance"))
-    crank.unbalances.push_back(
-        {one.number("at_mm", kPosition) * kMilli,
-         one.number("moment_kg_m", Range::between(0.0, 1e6)),
-         one.number_or("angle_deg", 0.0, Range::between(-720.0, 720.0)) * kDegree});
-  const auto load = table->find_table("load");
-  if (load && !crank.body.is_free)
-    table->fail("load",
-                "found with a prescribed speed, whose torque follows from it, expected "
-                "speed = \"free\"");
-  if (load) crank.load = read_crank_load(*load, crank.clock);
+  CrankTable found = crank_keys().read(*table);
+  CrankSpec crank = found;
+  crank.bearings.assign(found.described.begin(), found.described.end());
+  const bool on_block = has_elastic_block(root);
+  check_bearings(*table, crank.bearings, on_block);
+  // A rigid block is the ground and has no sets: the key may be that of a base scene.
+  if (!on_block)
+    for (CrankBearingSpec& bearing : crank.bearings) bearing.set.clear();
+  const EngineTable engine = engine_keys().read(root.table("engine"));
+  crank.clock = engine.clock;
+  crank.rotation = engine.stroke.rotation;
+  if (crank.load.at_speed == 0.0) crank.load.at_speed = crank.clock.speed;
   return crank;
 }
 

@@ -29,19 +29,6 @@ double angle_of_pin(const SliderCrank& crank, double height) {
 
 }  // namespace
 
-void read_clearance(const Config& contact, film::PistonLinerOptions& options) {
-  const char *given = "clearance_um", *warm = "minimum_warm_clearance_um";
-  const Range range = Range::between(0.0, 1e5);
-  if (contact.has(given) && contact.has(warm))
-    contact.fail(warm, "found it beside clearance_um, expected one of the two (of a base as well)");
-  if (!contact.has(given) && !contact.has(warm))
-    contact.fail(given, "found neither it nor minimum_warm_clearance_um, expected one of the two");
-  if (contact.has(given))
-    options.clearance = contact.number(given, range) * kMicro;
-  else
-    options.warm_clearance = film::WarmClearance{contact.number(warm, range) * kMicro};
-}
-
 void set_stroke(const SliderCrank& crank, film::WarmClearance& warm) {
   const double e = crank.pin_offset(), l = crank.rod_length(), r = crank.radius();
   warm.lowest_pin = std::sqrt((l - r) * (l - r) - e * e);

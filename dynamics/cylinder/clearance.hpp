@@ -3,15 +3,11 @@
 // The clearance between skirt and liner: as a number, or by the smallest gap of the warm surfaces.
 #include <string>
 
-#include "core/base/config.hpp"
 #include "dynamics/component/effects.hpp"
 #include "dynamics/film/piston_liner_options.hpp"
 #include "dynamics/given/crank.hpp"
 
 namespace clatter::dynamics {
-
-/// Reads `clearance_um` or `minimum_warm_clearance_um` of [contact]; exactly one must be given.
-void read_clearance(const Config& contact, film::PistonLinerOptions& options);
 
 /// The dead centres of the pin.
 void set_stroke(const SliderCrank& crank, film::WarmClearance& warm);

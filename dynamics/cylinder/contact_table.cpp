@@ -7,194 +7,231 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
-#include "dynamics/cylinder/clearance.hpp"
-#include "dynamics/cylinder/oil_table.hpp"
-#include "dynamics/cylinder/recess_table.hpp"
+#include "dynamics/component/component_keys.hpp"
 #include "dynamics/film/roughness.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
-std::vector<double> scaled(std::vector<double> values, double factor) {
-  for (double& value : values) value *= factor;
-  return values;
-}
+using film::PistonLinerOptions;
+using ContactKeys = Keys<ContactTable>;
 
-const Range kHeight = Range::between(-1e4, 1e4);  // [mm]
+const Range kHeightMm = Range::between(-1e4, 1e4), kShare = Range::between(0.0, 1.0);
+const Range kDeviationUm = Range::between(0.0, 1e5);
 
-/// Values over ascending heights [m].
-struct Curve {
-  std::vector<double> height, value;
-};
-
-/// Empty when both keys are absent. Values from 0 to 0.1 m.
-Curve read_curve(const Config& table, const char* height_mm, const char* value_um) {
-  const auto height = table.numbers_or(height_mm, {}), value = table.numbers_or(value_um, {});
-  if (height.size() != value.size())
-    table.fail(value_um, fmt::format("found {} values, expected as many values as {}, {}",
-                                     value.size(), height_mm, height.size()));
-  for (size_t k = 0; k < height.size(); ++k) {
-    if (!(std::abs(height[k]) <= kHeight.max))
-      table.fail(height_mm,
-                 fmt::format("found {:g}, expected at most {:g}", height[k], kHeight.max));
-    if (k > 0 && !(height[k] > height[k - 1]))
-      table.fail(height_mm, fmt::format("found {:g} after {:g}, expected ascending heights",
-                                        height[k], height[k - 1]));
-    if (!(value[k] >= 0.0 && value[k] <= 1e5))
-      table.fail(value_um,
-                 fmt::format("found {:g}, expected no value below 0 or above 1e+05", value[k]));
-  }
-  return {scaled(height, kMilli), scaled(value, kMicro)};
-}
-
-void read_shape(const Config& table, film::SkirtShape& shape) {
-  const Range relief = Range::between(0.0, 1e5);
-  shape.barrel_apex =
-      table.number_or("barrel_apex_mm", shape.barrel_apex / kMilli, kHeight) * kMilli;
-  shape.barrel_top = table.number_or("barrel_top_um", shape.barrel_top / kMicro, relief) * kMicro;
-  shape.barrel_bottom =
-      table.number_or("barrel_bottom_um", shape.barrel_bottom / kMicro, relief) * kMicro;
-  shape.ovality = table.number_or("ovality_um", shape.ovality / kMicro, relief) * kMicro;
-  const Curve profile = read_curve(table, "profile_height_mm", "profile_relief_um");
-  shape.table_height = profile.height;
-  shape.table_relief = profile.value;
-}
-
-// Empty when the keys are absent; both or none must be given.
-void read_bore(const Config& table, std::optional<film::LinerShape>& bore) {
-  const Curve widening = read_curve(table, "bore_height_mm", "bore_widening_um");
-  if (widening.height.empty()) return;
-  bore.emplace();
-  bore->angle = Eigen::VectorXd::Zero(1);
-  bore->height =
-      Eigen::Map<const Eigen::VectorXd>(widening.height.data(), std::ssize(widening.height));
-  bore->deviation =
-      Eigen::Map<const Eigen::RowVectorXd>(widening.value.data(), std::ssize(widening.value));
-}
-
-void read_ends(const Config& table, film::LinerEnds& ends) {
-  if (table.has("liner_bottom_mm")) ends.bottom = table.number("liner_bottom_mm") * kMilli;
-  if (table.has("liner_top_mm")) ends.top = table.number("liner_top_mm") * kMilli;
-  if (!(ends.top > ends.bottom))
-    table.fail("liner_top_mm", fmt::format("found {:g}, expected more than liner_bottom_mm, {:g}",
-                                           ends.top / kMilli, ends.bottom / kMilli));
-}
-
-void read_oil(const Config& table, film::PistonLinerOptions& options) {
-  const Range share{0.0, 1.0, false};
-  options.viscosity =
-      table.number_or("viscosity_pa_s", options.viscosity, Range::between(1e-6, 1e4));
-  const double bulk_mpa =
-      table.number_or("bulk_modulus_mpa", options.bulk_modulus * 1e-6, Range::between(0.0, 1e9));
-  if (bulk_mpa > 0.0 && bulk_mpa < 1.0)
-    table.fail("bulk_modulus_mpa",
-               fmt::format("found {:g}, expected 0 (incompressible) or at least 1", bulk_mpa));
-  options.bulk_modulus = bulk_mpa * 1e6;
-  options.initial_fill = table.number_or("initial_fill", options.initial_fill, share);
-  options.supply_fill = table.number_or("supply_fill", options.supply_fill, share);
-  options.cavity = table.choice("cavity", {"layer", "striated"}) == "layer"
-                       ? film::Cavity::kLayer
-                       : film::Cavity::kStriated;
-  if (table.has("oil_thickness_um")) {
-    options.oil_thickness = table.number("oil_thickness_um", Range::between(1e-3, 1e5)) * kMicro;
-  }
-  options.supply_pressure =
-      table.number_or("supply_pressure_bar", 0.0, Range::between(0.0, 1e4)) * 1e5;
-}
-
-// K is given, or follows from data of the summits by eq. (11), which a scene may add to its base.
-void read_asperities(const Config& table, film::AsperityOptions& asperity) {
-  using Law = film::AsperityOptions::Law;
-  const bool summits = table.has("summit_density_1_mm2") || table.has("summit_radius_um");
-  const std::string law = summits ? table.choice("asperity_law", {"exact", "fit"})
-                                  : table.choice("asperity_law", {"fit", "exact"});
-  asperity.law = law == "fit" ? Law::kFit : Law::kExact;
-  asperity.roughness = table.number_or("summit_roughness_um", asperity.roughness / kMicro,
-                                       Range::between(1e-4, 1e3)) *
-                       kMicro;
-  asperity.factor = table.number_or("asperity_factor", asperity.factor, Range::between(1e-12, 1e3));
-  if (summits) {
-    const double density = table.number("summit_density_1_mm2", Range::between(1e-3, 1e9)) * 1e6;
-    const double radius = table.number("summit_radius_um", Range::between(1e-3, 1e6)) * kMicro;
-    asperity.factor = film::contact_factor(density, radius, asperity.roughness);
-    asperity.from_summits = true;
-  }
-  asperity.modulus =
-      table.number_or("asperity_modulus_gpa", asperity.modulus * 1e-9, Range::between(1e-6, 1e5)) *
-      1e9;
-}
-
-void read_surfaces(const Config& table, film::PistonLinerOptions& options) {
-  auto& rough = options.roughness;
-  const auto roughness = [&](const char* key, double value) {
-    return table.number_or(key, value / kMicro, Range::between(0.0, 1e3)) * kMicro;
-  };
-  rough.piston = roughness("piston_roughness_um", rough.piston);
-  rough.liner = roughness("liner_roughness_um", rough.liner);
-  rough.peklenik = table.number_or("peklenik", rough.peklenik, Range::between(1e-3, 1e3));
-  rough.flow_factors = table.flag_or("flow_factors", rough.flow_factors);
-  rough.stress_factors = table.flag_or("friction_factors", rough.stress_factors);
-  if (rough.stress_factors && !rough.flow_factors)
-    table.fail("friction_factors", "found true without flow_factors, expected both");
-  if (options.effects.film && rough.flow_factors) {
-    if (rough.piston == 0.0 && rough.liner == 0.0)
-      table.fail("flow_factors", "both walls are smooth, expected a roughness above 0");
-    with_context(table.where("peklenik"), [&] { film::RoughFilm{rough}; });
-  }
-  read_asperities(table, options.asperity);
-  options.damping.loss_factor = table.number_or("asperity_loss_factor", options.damping.loss_factor,
-                                                Range::between(0.0, 0.6));
-  options.friction.coefficient = table.number_or(
-      "friction_coefficient", options.friction.coefficient, Range::between(0.0, 10.0));
-  options.friction.reversal_speed = table.number_or(
-      "reversal_speed_m_s", options.friction.reversal_speed, Range::between(1e-9, 1e3));
-}
-
-}  // namespace
-
-film::PistonLinerOptions read_contact(const Config& table) {
-  film::PistonLinerOptions options;
-  options.bore_radius = 0.5 * table.number("bore_mm", Range::between(0.1, 1e4)) * kMilli;
-  read_clearance(table, options);
-  options.skirt_bottom =
-      table.number_or("skirt_bottom_mm", options.skirt_bottom / kMilli, kHeight) * kMilli;
-  options.skirt_top = table.number_or("skirt_top_mm", options.skirt_top / kMilli, kHeight) * kMilli;
+void check_contact_skirt(const Config& table, ContactTable& contact) {
+  PistonLinerOptions& options = contact.options;
   if (!(options.skirt_top > options.skirt_bottom))
     table.fail("skirt_top_mm",
                fmt::format("found {:g}, expected above skirt_bottom_mm, {:g}",
                            options.skirt_top / kMilli, options.skirt_bottom / kMilli));
-  const bool whole = table.choice("span", {"pads", "whole"}) == "whole";
-  options.span = whole ? film::SkirtSpan::kWhole : film::SkirtSpan::kPads;
-  options.pad_span =
-      table.number_or("pad_span_deg", options.pad_span / kDegree, Range{1.0, 180.0, false}) *
-      kDegree;
-  const Range cells{2.0, 400.0, false}, around{whole ? 8.0 : 2.0, 400.0, false};
+  if (!(options.ends.top > options.ends.bottom))
+    table.fail("liner_top_mm",
+               fmt::format("found {:g}, expected more than liner_bottom_mm, {:g}",
+                           options.ends.top / kMilli, options.ends.bottom / kMilli));
+  const bool whole = options.span == film::SkirtSpan::kWhole;
+  if (whole) options.cells_around *= 4;
   options.cells_around = static_cast<int>(table.integer_or(
-      "cells_around", whole ? 4 * options.cells_around : options.cells_around, around));
+      "cells_around", options.cells_around, Range::between(whole ? 8.0 : 2.0, 400.0)));
   if (whole && options.cells_around % 2 != 0)
     table.fail("cells_around", fmt::format("found {}, expected an even number around the entire "
                                            "skirt: another is not symmetric",
                                            options.cells_around));
-  options.cells_along =
-      static_cast<int>(table.integer_or("cells_along", options.cells_along, cells));
+  if (contact.clearance) options.clearance = *contact.clearance;
+  if (contact.minimum_warm_clearance)
+    options.warm_clearance = film::WarmClearance{*contact.minimum_warm_clearance};
+  if (contact.bore_height.empty()) return;
+  film::LinerShape& bore = options.bore.emplace();
+  const auto size = std::ssize(contact.bore_height);
+  bore.angle = Eigen::VectorXd::Zero(1);
+  bore.height = Eigen::Map<const Eigen::VectorXd>(contact.bore_height.data(), size);
+  bore.deviation = Eigen::Map<const Eigen::RowVectorXd>(contact.bore_widening.data(), size);
+}
 
-  auto& effects = options.effects;
-  effects.film = table.choice("lubrication", {"film", "none"}) == "film";
-  effects.cavitation = table.flag_or("cavitation", true);
-  effects.asperities = table.flag_or("asperities", true);
-  effects.friction = table.flag_or("friction", true);
-  if (!effects.film && !effects.asperities) {
-    table.fail("asperities", "found false without a film, expected at least one of the two");
+void check_contact_oil(const Config& table, ContactTable& contact) {
+  PistonLinerOptions& options = contact.options;
+  if (options.bulk_modulus > 0.0 && options.bulk_modulus < 1e6)
+    table.fail("bulk_modulus_mpa", fmt::format("found {:g}, expected 0 (incompressible) or at "
+                                               "least 1",
+                                               1e-6 * options.bulk_modulus));
+  options.oil = contact.oil.laws;
+  with_context(contact.oil.where, [&] { film::Viscosity{options.oil, options.viscosity}; });
+  if (!options.liner_layer) return;
+  for (const auto& [key, supplies] :
+       {std::pair{"supply_pressure_bar", options.supply_pressure > 0.0},
+        {"supply_fill", options.supply_fill < 1.0}})
+    if (supplies)
+      table.fail(key, fmt::format("{} and liner_oil exclude each other: the layer on the liner "
+                                  "supplies the skirt",
+                                  key));
+  const double length = options.skirt_top - options.skirt_bottom, cell = options.liner_layer->cell;
+  if (2.0 * cell > length)
+    table.table("liner_oil")
+        .fail("cell_mm",
+              fmt::format("found {:g}, expected at most half of the skirt's length, {:g}",
+                          cell / kMilli, 0.5 * length / kMilli));
+}
+
+// K is given, or follows from data of the summits by eq. (11), which a scene may add to its base.
+void check_contact_surfaces(const Config& table, ContactTable& contact) {
+  using Law = film::AsperityOptions::Law;
+  PistonLinerOptions& options = contact.options;
+  film::AsperityOptions& asperity = options.asperity;
+  asperity.law = contact.law.value_or(contact.summit_density ? Law::kExact : Law::kFit);
+  table.text_or("asperity_law", asperity.law == Law::kExact ? "exact" : "fit");
+  if (contact.summit_density) {
+    asperity.factor =
+        film::contact_factor(*contact.summit_density, *contact.summit_radius, asperity.roughness);
+    asperity.from_summits = true;
   }
-  read_shape(table, options.skirt);
-  read_bore(table, options.bore);
-  read_ends(table, options.ends);
-  read_oil(table, options);
-  read_viscosity(table, options);
-  read_liner_oil(table, options);
-  options.recesses = read_recesses(table);
-  read_surfaces(table, options);
-  return options;
+  if (!options.effects.film && !options.effects.asperities)
+    table.fail("asperities", "found false without a film, expected at least one of the two");
+  const film::RoughnessOptions& rough = options.roughness;
+  if (rough.stress_factors && !rough.flow_factors)
+    table.fail("friction_factors", "needs flow_factors = true");
+  if (!options.effects.film || !rough.flow_factors) return;
+  if (rough.piston == 0.0 && rough.liner == 0.0)
+    table.fail("flow_factors", "both walls are smooth, expected a roughness above 0");
+  with_context(table.where("peklenik"), [&] { film::RoughFilm{rough}; });
+}
+
+void check_contact_lists(const Config& table, ContactTable& contact) {
+  PistonLinerOptions& options = contact.options;
+  for (const RecessTable& one : contact.recesses) options.recesses.push_back(one.recess);
+  contact.rings = checked_rings(table, contact.described_rings, options);
+  if (!options.liner_layer) return;
+  for (const RingSpec& ring : contact.rings)
+    options.liner_layer->rings.push_back({ring.height, ring.face_radius, ring.load, ring.least});
+}
+
+void add_skirt(ContactKeys& key, ContactTable& contact) {
+  PistonLinerOptions& options = contact.options;
+  key.number("bore_mm", options.bore_radius, Range::between(0.1, 1e4), "diameter of the bore")
+      .times(0.5)
+      .required();
+  key.number("clearance_um", contact.clearance, kDeviationUm,
+             "radial clearance of the cold surfaces where the skirt is widest");
+  key.number("minimum_warm_clearance_um", contact.minimum_warm_clearance, kDeviationUm,
+             "smallest gap of the warm surfaces over the stroke, from which the clearance follows");
+  key.one_of({"clearance_um", "minimum_warm_clearance_um"});
+  key.number("skirt_bottom_mm", options.skirt_bottom, kHeightMm, "lower end of the skirt");
+  key.number("skirt_top_mm", options.skirt_top, kHeightMm, "upper end of the skirt");
+  key.choice("span", options.span,
+             {{"pads", film::SkirtSpan::kPads}, {"whole", film::SkirtSpan::kWhole}},
+             "a pad on each side, or a film all around the skirt");
+  key.number("pad_span_deg", options.pad_span, Range::between(1.0, 180.0),
+             "angle that each pad covers");
+  key.integer("cells_around", contact.cells_around, Range::between(2.0, 400.0),
+              "cells along the circumference: 10 of a pad, 40 of the entire skirt without it");
+  key.integer("cells_along", options.cells_along, Range::between(2.0, 400.0),
+              "cells along the skirt");
+  film::SkirtShape& shape = options.skirt;
+  key.number("barrel_apex_mm", shape.barrel_apex, kHeightMm, "height of the largest diameter");
+  key.number("barrel_top_um", shape.barrel_top, kDeviationUm, "relief at the upper end");
+  key.number("barrel_bottom_um", shape.barrel_bottom, kDeviationUm, "relief at the lower end");
+  key.number("ovality_um", shape.ovality, kDeviationUm, "relief in the direction of the pin");
+  key.numbers("profile_height_mm", shape.table_height, kHeightMm, "heights of the skirt's profile")
+      .ascending()
+      .needs("profile_relief_um");
+  key.numbers("profile_relief_um", shape.table_relief, kDeviationUm, "radial relief there")
+      .as_many_as("profile_height_mm");
+  key.numbers("bore_height_mm", contact.bore_height, kHeightMm,
+              "heights of the bore's profile above the crank axis")
+      .ascending()
+      .needs("bore_widening_um");
+  key.numbers("bore_widening_um", contact.bore_widening, kDeviationUm, "radial widening there")
+      .as_many_as("bore_height_mm");
+  key.tables("bore_shape", contact.bore_shapes, shape_keys(), "deviation of the bore");
+  key.tables("skirt_shape", contact.skirt_shapes, shape_keys(), "deviation of the skirt");
+  key.tables("recess", contact.recesses, recess_keys());
+  const char* patches = "; without it that of an elastic liner's patches, a rigid one has none";
+  key.number("liner_bottom_mm", options.ends.bottom, Range::between(-1e9, 1e9),
+             fmt::format("lower end of the liner above the crank axis{}", patches));
+  key.number("liner_top_mm", options.ends.top, Range::between(-1e9, 1e9),
+             fmt::format("upper end of the liner above the crank axis{}", patches));
+}
+
+void add_film(ContactKeys& key, ContactTable& contact) {
+  PistonLinerOptions& options = contact.options;
+  film::ContactEffects& effects = options.effects;
+  key.choice("lubrication", effects.film, {{"film", true}, {"none", false}},
+             "an oil film, or dry walls");
+  key.flag("cavitation", effects.cavitation,
+           "the film ruptures, with conservation of mass; else it is full everywhere");
+  key.flag("asperities", effects.asperities, "contact of the rough walls");
+  key.flag("friction", effects.friction, "shear of the film, and friction of the contact");
+  key.number("viscosity_pa_s", options.viscosity, Range::between(1e-6, 1e4),
+             "dynamic viscosity of the oil where no law of [contact.oil] gives it");
+  key.number("bulk_modulus_mpa", options.bulk_modulus, Range::between(0.0, 1e9),
+             "bulk modulus of the oil; 0: incompressible");
+  key.number("initial_fill", options.initial_fill, kShare,
+             "part of the gap full of oil at the start");
+  key.number("supply_fill", options.supply_fill, kShare,
+             "fill of the film that enters at the ends");
+  key.choice("cavity", options.cavity,
+             {{"layer", film::Cavity::kLayer}, {"striated", film::Cavity::kStriated}},
+             "where the oil is that does not fill the gap: a layer on the liner, or strips");
+  key.number("oil_thickness_um", options.oil_thickness, Range::between(1e-3, 1e5),
+             "layer on the liner into which the skirt slides; without it the fills alone hold");
+  key.number("supply_pressure_bar", options.supply_pressure, Range::between(0.0, 1e4),
+             "pressure of oil at all edges of the skirt over that of the crankcase");
+  key.table("oil", contact.oil, oil_keys());
+  key.table("liner_oil", options.liner_layer, liner_oil_keys())
+      .needs("lubrication", "film")
+      .needs("cavitation", "true")
+      .needs("oil_thickness_um", {}, "it is the layer at the start");
+  key.tables("ring", contact.described_rings, ring_keys());
+}
+
+void add_surfaces(ContactKeys& key, ContactTable& contact) {
+  PistonLinerOptions& options = contact.options;
+  film::RoughnessOptions& rough = options.roughness;
+  const Range roughness = Range::between(0.0, 1e3);
+  key.number("piston_roughness_um", rough.piston, roughness, "rms height of the skirt");
+  key.number("liner_roughness_um", rough.liner, roughness, "rms height of the liner");
+  key.number("peklenik", rough.peklenik, Range::between(1e-3, 1e3),
+             "correlation length of the roughness along the stroke over that around");
+  key.flag("flow_factors", rough.flow_factors, "flow factors of rough walls, Patir and Cheng");
+  key.flag("friction_factors", rough.stress_factors, "their factors of the shear stress");
+  film::AsperityOptions& asperity = options.asperity;
+  using Law = film::AsperityOptions::Law;
+  key.choice("asperity_law", contact.law, {{"fit", Law::kFit}, {"exact", Law::kExact}},
+             "of the contact pressure over the gap: a fit, or the integral, which is taken with "
+             "summit_density_1_mm2");
+  key.number("summit_roughness_um", asperity.roughness, Range::between(1e-4, 1e3),
+             "standard deviation of the heights of summits");
+  key.number("asperity_factor", asperity.factor, Range::between(1e-12, 1e3),
+             "factor K of the contact pressure, unless the summits give it");
+  key.number("summit_density_1_mm2", contact.summit_density, Range::between(1e-3, 1e9),
+             "summits on an area")
+      .required_with("summit_radius_um");
+  key.number("summit_radius_um", contact.summit_radius, Range::between(1e-3, 1e6),
+             "radius of the summits")
+      .required_with("summit_density_1_mm2");
+  key.number("asperity_modulus_gpa", asperity.modulus, Range::between(1e-6, 1e5),
+             "elastic modulus of both walls together");
+  key.number("asperity_loss_factor", options.damping.loss_factor, Range::between(0.0, 0.6),
+             "damping of the contact normal to the walls; 0: elastic");
+  key.number("friction_coefficient", options.friction.coefficient, Range::between(0.0, 10.0),
+             "of the contact of asperities");
+  key.number("reversal_speed_m_s", options.friction.reversal_speed, Range::between(1e-9, 1e3),
+             "speed below which the friction is less, so that it reverses smoothly");
+}
+
+}  // namespace
+
+const Keys<ContactTable>& contact_keys() {
+  static const Keys<ContactTable> keys("contact", "the skirt in its liner: film, asperities, rings",
+                                       [](ContactKeys& key, ContactTable& contact) {
+                                         add_skirt(key, contact);
+                                         add_film(key, contact);
+                                         add_surfaces(key, contact);
+                                         key.check(check_contact_skirt);
+                                         key.check(check_contact_oil);
+                                         key.check(check_contact_surfaces);
+                                         key.check(check_contact_lists);
+                                       });
+  return keys;
 }
 
 }  // namespace clatter::dynamics

@@ -8,7 +8,8 @@
 
 #include "dynamics/body/crank_body.hpp"
 #include "dynamics/body/rigid_rod.hpp"
-#include "dynamics/component/loaded_body.hpp"
+#include "dynamics/component/block_table.hpp"
+#include "dynamics/component/engine_table.hpp"
 #include "dynamics/cylinder/joint_spec.hpp"
 #include "dynamics/cylinder/rod_spec.hpp"
 #include "dynamics/cylinder/shape_scale.hpp"
@@ -21,16 +22,10 @@
 namespace clatter::dynamics {
 
 /// [engine] and [rod].
-struct EngineSpec {
+struct EngineSpec : StrokeSpec {
   CrankClock clock;
-  double stroke = 0.0;      // [m]
-  double pin_offset = 0.0;  // of the pin from the bore's axis toward the thrust side [m]
-  /// The block's rigid modes get no resultant, neither force nor moment, of this cylinder's inertia
-  /// forces; its elastic modes get them all (balance.hpp).
-  bool balanced = false;
   RodProperties rod;
-  double firing = 0.0;  // angle of the crankshaft at this cylinder's firing TDC [rad]
-  Rotation rotation = Rotation::kForward;
+  double firing = 0.0;                // angle of the crankshaft at this cylinder's firing TDC [rad]
   std::filesystem::path speed_table;  // of the clock; empty: it has none
 
   SliderCrank crank() const {
@@ -41,7 +36,7 @@ struct EngineSpec {
 /// [gas]: pressure over the crank angle from the cylinder's firing TDC.
 struct GasSpec {
   std::filesystem::path table;
-  std::string column;
+  std::string column = "pressure";
   Spline::Kind interpolation = Spline::Kind::kMonotoneCubic;
   double ambient = 1e5;  // subtracted from the table's absolute pressure [Pa]
 };
@@ -51,14 +46,6 @@ struct PistonSpec : BodySpec {
   std::string pin = "pin";       // set of the pin's node, 6 DoFs
   std::string skirt = "skirt";   // contact grid
   std::string gas_load = "gas";  // unit load, per Pa; empty: none
-};
-
-/// Where a cylinder is on the block: keys of [block].
-struct BoreSpec {
-  std::string liner = "liner";        // contact grid of the bore
-  std::string liner_axial;            // set of its mean axial displacement; empty: rigid frame
-  std::vector<std::string> bearings;  // main bearings next to the crank; empty: rigid frame
-  std::string gas_load;               // unit load on the head, per Pa; empty: none
 };
 
 /// A cylinder with piston, rod and joints; absent tables: none of it.
@@ -74,7 +61,6 @@ struct CylinderSpec {
   std::vector<ScaledShapeSpec> scaled_bore, scaled_skirt;
   std::vector<std::filesystem::path> shape_files;  // of [[contact.bore_shape]], skirt_shape
   std::string contact_where;                       // "file:line: contact", for messages
-  std::string pin_offset_where;                    // "file:line: engine.pin_offset_mm"
   JointSpec small_end, big_end;
   GuideLaw guide;                       // [pin_guide]
   std::optional<CrankBody> crankshaft;  // [crank]; absent: it turns ideally and has no mass

@@ -2,37 +2,28 @@
 // The tables of cylinders.
 #include <fmt/format.h>
 
-#include <numbers>
-#include <set>
-#include <tuple>
+#include <map>
 
 #include "core/base/error.hpp"
-#include "core/base/units.hpp"
 #include "dynamics/component/component_keys.hpp"
 #include "dynamics/component/crank_keys.hpp"
 #include "dynamics/cylinder/contact_table.hpp"
 #include "dynamics/cylinder/cylinder_component.hpp"
+#include "dynamics/cylinder/cylinder_keys.hpp"
 #include "dynamics/cylinder/parked_cylinder.hpp"
-#include "dynamics/cylinder/ring_table.hpp"
 #include "dynamics/cylinder/rod_table.hpp"
-#include "dynamics/cylinder/shape_table.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
-/// @param tables of the cylinder.
-EngineSpec read_engine(const Config& tables, const CrankClock& clock, double firing,
+EngineSpec read_engine(const Config& tables, const EngineTable& given, double firing,
                        const RodProperties& rod) {
   const Config table = tables.table("engine");
   EngineSpec engine;
-  engine.clock = clock;
+  stroke_keys().read(table, engine);
+  engine.clock = given.clock;
+  engine.speed_table = given.speed_table;
   engine.firing = firing;
-  if (table.has("speed_table")) engine.speed_table = table.path("speed_table");
-  engine.stroke = table.number("stroke_mm", Range::between(0.1, 1e4)) * kMilli;
-  engine.pin_offset = table.number_or("pin_offset_mm", 0.0, Range::between(-1e4, 1e4)) * kMilli;
-  engine.balanced = table.flag_or("balanced", false);
-  if (table.choice("rotation", {"forward", "backward"}) == "backward")
-    engine.rotation = Rotation::kBackward;
   engine.rod = rod;
   const bool by_offset = engine.rod.length > 0.5 * engine.stroke;
   with_context(by_offset ? table.where("pin_offset_mm") : tables.table("rod").where("length_mm"),
@@ -40,73 +31,37 @@ EngineSpec read_engine(const Config& tables, const CrankClock& clock, double fir
   return engine;
 }
 
-GuideLaw read_guide(const Config& tables) {
-  GuideLaw guide;
-  const auto table = tables.find_table("pin_guide");
-  if (!table) return guide;
-  const Range any = Range::between(0.0, 1e15);
-  guide.axial_stiffness = table->number_or("axial_stiffness_n_m", guide.axial_stiffness, any);
-  guide.axial_damping = table->number_or("axial_damping_n_s_m", guide.axial_damping, any);
-  guide.tilt_stiffness = table->number_or("tilt_stiffness_n_m", guide.tilt_stiffness, any);
-  guide.tilt_damping = table->number_or("tilt_damping_n_m_s", guide.tilt_damping, any);
-  return guide;
-}
-
-GasSpec read_gas(const Config& table) {
-  GasSpec gas;
-  gas.table = table.path("table");
-  gas.column = table.text_or("column", "pressure");
-  gas.interpolation = read_interpolation(table, "cubic");
-  gas.ambient = table.number_or("ambient_bar", 1.0, Range::between(0.0, 1e4)) * 1e5;
-  return gas;
-}
-
-PistonSpec read_piston(const Config& table) {
-  PistonSpec piston;
-  read_body(table, "piston", piston);
-  piston.pin = table.text_or("pin", piston.pin);
-  piston.skirt = table.text_or("skirt", piston.skirt);
-  piston.gas_load = table.text_or("gas_load", piston.gas_load);
-  return piston;
-}
-
-BoreSpec read_bore(const Config& table) {
-  BoreSpec bore;
-  bore.liner = table.text_or("liner", bore.liner);
-  bore.liner_axial = table.text_or("liner_axial", "");
-  bore.bearings = table.texts_or("bearings", {});
-  bore.gas_load = table.text_or("gas_load", "");
-  return bore;
+void add_contact(const Config& table, CylinderSpec& cylinder) {
+  ContactTable contact = contact_keys().read(table);
+  film::PistonLinerOptions& options = cylinder.contact.emplace(std::move(contact.options));
+  cylinder.rings = std::move(contact.rings);
+  const auto add = [&](std::vector<ShapeTable>& found, auto& shapes, auto& scaled) {
+    for (ShapeTable& one : found) {
+      for (const auto& file : {one.file, one.table, one.scale.table})
+        if (!file.empty()) cylinder.shape_files.push_back(file);
+      if (one.scale.is_given())
+        scaled.push_back({std::move(one.shape), std::move(one.scale)});
+      else
+        shapes.push_back(std::move(one.shape));
+    }
+  };
+  add(contact.bore_shapes, options.bore_shapes, cylinder.scaled_bore);
+  add(contact.skirt_shapes, options.skirt_shapes, cylinder.scaled_skirt);
 }
 
 /// @param tables of the cylinder: the scene's own, or those of a [[cylinder]] over them.
-CylinderSpec read_cylinder(const Config& tables, const CrankClock& clock, double firing,
+CylinderSpec read_cylinder(const Config& tables, const EngineTable& engine, double firing,
                            const std::optional<CrankBody>& crankshaft) {
-  const auto piston = tables.find_table("piston");
-  if (!piston) tables.fail("piston", "found nothing, expected [piston]");
   CylinderSpec cylinder;
   cylinder.crankshaft = crankshaft;
-  const DescribedRod rod = read_rod(tables.table("rod"));
+  const DescribedRod rod = rod_keys().read(tables.table("rod"));
   cylinder.rod = rod.spec;
-  cylinder.engine = read_engine(tables, clock, firing, rod.properties);
-  cylinder.piston = read_piston(*piston);
-  if (const auto table = tables.find_table("block")) cylinder.bore = read_bore(*table);
-  if (const auto table = tables.find_table("gas")) cylinder.gas = read_gas(*table);
-  if (const auto table = tables.find_table("contact")) {
-    cylinder.contact = read_contact(*table);
-    cylinder.rings = read_rings(*table, *cylinder.contact);
-    for (const auto& [key, shapes, scaled] :
-         {std::tuple{"bore_shape", &cylinder.contact->bore_shapes, &cylinder.scaled_bore},
-          {"skirt_shape", &cylinder.contact->skirt_shapes, &cylinder.scaled_skirt}}) {
-      SurfaceShapes found = read_surface_shapes(*table, key);
-      *shapes = std::move(found.shapes);
-      *scaled = std::move(found.scaled);
-      cylinder.shape_files.insert(cylinder.shape_files.end(), found.files.begin(),
-                                  found.files.end());
-    }
-  }
+  cylinder.engine = read_engine(tables, engine, firing, rod.properties);
+  cylinder.piston = piston_keys().read(tables.table("piston"));
+  if (const auto table = tables.find_table("block")) cylinder.bore = bore_keys().read(*table);
+  if (const auto table = tables.find_table("gas")) cylinder.gas = gas_keys().read(*table);
+  if (const auto table = tables.find_table("contact")) add_contact(*table, cylinder);
   cylinder.contact_where = tables.where("contact");
-  cylinder.pin_offset_where = tables.table("engine").where("pin_offset_mm");
   cylinder.small_end = read_joint(tables, "small_end");
   cylinder.big_end = read_joint(tables, "big_end");
   if (cylinder.rod.model == RodModel::kMassless && cylinder.has_free_crank())
@@ -120,32 +75,102 @@ CylinderSpec read_cylinder(const Config& tables, const CrankClock& clock, double
                   "found friction or an oil film with rod.model = \"massless\", expected "
                   "neither: such a rod bears no moment");
   }
-  cylinder.guide = read_guide(tables);
+  if (const auto table = tables.find_table("pin_guide")) cylinder.guide = guide_keys().read(*table);
   return cylinder;
 }
 
 }  // namespace
 
+const Keys<GuideLaw>& guide_keys() {
+  static const Keys<GuideLaw> keys(
+      "pin_guide", "what holds the piston along its pin and upright on it",
+      [](auto& key, GuideLaw& guide) {
+        const Range any = Range::between(0.0, 1e15);
+        key.number("axial_stiffness_n_m", guide.axial_stiffness, any, "along the pin");
+        key.number("axial_damping_n_s_m", guide.axial_damping, any, "along the pin");
+        key.number("tilt_stiffness_n_m", guide.tilt_stiffness, any, "about y and z")
+            .shown_in("N m/rad");
+        key.number("tilt_damping_n_m_s", guide.tilt_damping, any, "about y and z")
+            .shown_in("N m s/rad");
+      });
+  return keys;
+}
+
+const Keys<GasSpec>& gas_keys() {
+  static const Keys<GasSpec> keys(
+      "gas", "pressure of the gas over the crank angle", [](auto& key, GasSpec& gas) {
+        key.path("table", gas.table,
+                 "CSV of the absolute pressure over the crank angle from firing TDC")
+            .required();
+        key.text("column", gas.column, "its column");
+        interpolation_row(key, gas.interpolation);
+        key.number("ambient_bar", gas.ambient, Range::between(0.0, 1e4),
+                   "pressure behind the piston, absolute");
+      });
+  return keys;
+}
+
+const Keys<PistonSpec>& piston_keys() {
+  static const Keys<PistonSpec> keys(
+      "piston", "the piston, a reduced part", [](auto& key, PistonSpec& piston) {
+        key.part(static_cast<BodySpec&>(piston), body_keys());
+        key.text("pin", piston.pin, "set of the node of the pin, with 6 DoFs");
+        key.text("skirt", piston.skirt, "contact grid of the skirt");
+        key.text("gas_load", piston.gas_load, "unit load of the gas, per Pa; \"\": none");
+      });
+  return keys;
+}
+
+const Keys<CylinderTable>& cylinder_keys() {
+  static const Keys<CylinderTable> keys(
+      "cylinder", "one of several cylinders: with tables of its own over those of the scene",
+      [](auto& key, CylinderTable& cylinder) {
+        key.shared();
+        name_row(key, cylinder.name).required();
+        key.number("firing_deg", cylinder.firing, Range::between(-720.0, 720.0),
+                   "crank angle of its firing TDC");
+        key.flag("parked", cylinder.is_parked, "without piston, rod, gas and contact");
+      });
+  return keys;
+}
+
+const keys::Table& cylinder_table() {
+  static const keys::Table table = [] {
+    keys::Table all = cylinder_keys().table();
+    all.complete_elsewhere();
+    for (const auto& [name, of] : {std::pair{"engine", &stroke_keys().table()},
+                                   {"rod", &rod_keys().table()},
+                                   {"piston", &piston_keys().table()},
+                                   {"block", &bore_keys().table()},
+                                   {"gas", &gas_keys().table()},
+                                   {"contact", &contact_keys().table()},
+                                   {"small_end", &joint_table()},
+                                   {"big_end", &joint_table()},
+                                   {"pin_guide", &guide_keys().table()}})
+      all.add(name, keys::Type::kTable, *of);
+    return all;
+  }();
+  return table;
+}
+
 ComponentList read_cylinders(const Config& root) {
-  const auto engine = root.find_table("engine");
-  if (!engine) return {};
-  const CrankClock clock = read_crank_clock(*engine);
+  const auto table = root.find_table("engine");
+  if (!table) return {};
+  const EngineTable engine = engine_keys().read(*table);
   const std::optional<CrankBody> crankshaft = read_crank_body(root);
+  has_elastic_block(root);  // its keys are known, those of a [cylinder.block] are not
   if (!root.has("cylinder"))
-    return {std::make_shared<CylinderComponent>(read_cylinder(root, clock, 0.0, crankshaft))};
+    return {std::make_shared<CylinderComponent>(read_cylinder(root, engine, 0.0, crankshaft))};
   ComponentList cylinders;
-  std::set<std::string> names;
+  std::map<std::string, std::string> names;
   bool all_parked = true;
-  for (const Config& table : root.tables("cylinder")) {
-    const std::string name = read_name(table);
-    if (!names.insert(name).second)
-      table.fail("name", fmt::format("found a second \"{}\", expected each name once", name));
-    const double firing = table.number_or("firing_deg", 0.0, Range::between(-720.0, 720.0));
-    CylinderSpec spec =
-        read_cylinder(table.with_fallback(root), clock, firing * kDegree, crankshaft);
-    spec.name = name;
-    if (table.flag_or("parked", false)) {
-      cylinders.push_back(std::make_shared<ParkedCylinder>(name));
+  for (const Config& one : root.tables("cylinder")) {
+    const CylinderTable cylinder = cylinder_keys().read(one);
+    check_new_name(one, "cylinder", cylinder.name, names);
+    CylinderSpec spec = read_cylinder(one.with_fallback(root), engine, cylinder.firing, crankshaft);
+    spec.name = cylinder.name;
+    if (cylinder.is_parked) {
+      cylinders.push_back(std::make_shared<ParkedCylinder>(cylinder.name));
       continue;
     }
     all_parked = false;

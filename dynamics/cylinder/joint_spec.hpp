@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/config.hpp"
+#include "core/keys/table.hpp"
 #include "dynamics/force/joint_friction.hpp"
 #include "dynamics/force/radial_table.hpp"
 #include "dynamics/shaft/bearing_film.hpp"
@@ -28,5 +28,7 @@ struct JointSpec {
 
 /// Reads the table `key`; the default joint without it. InputError "file:line: key: ...".
 JointSpec read_joint(const Config& tables, std::string_view key);
+/// Its keys.
+const keys::Table& joint_table();
 
 }  // namespace clatter::dynamics

@@ -3,111 +3,109 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
-#include "core/base/error.hpp"
 #include "core/base/units.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
-constexpr double kCelsius = 273.15;                  // 0 degrees [K]
-const Range kAnyHeight = Range::between(-1e4, 1e4);  // [mm]
+using Law = OilTable::Law;
 
-void read_vogel(const Config& oil, film::ViscosityOptions& laws) {
-  laws.vogel = {.a = oil.number("vogel_a_pa_s", Range::between(1e-9, 1.0)),
-                .b = oil.number("vogel_b_k", Range::between(0.0, 1e4)),
-                .c = oil.number("vogel_c_c", Range::between(-270.0, 50.0)) + kCelsius};
-}
+const Range kCelsius = Range::between(-60.0, 400.0);
+const Range kThicknessUm = Range::between(1e-3, 1e5);
 
-void read_walther(const Config& oil, film::ViscosityOptions& laws) {
-  const auto temperature = oil.numbers("walther_temperature_c", 2),
-             kinematic = oil.numbers("walther_mm2_s", 2);
-  if (!(temperature[0] >= -60.0 && temperature[1] > temperature[0] && temperature[1] <= 400.0))
-    oil.fail("walther_temperature_c", fmt::format("found {:g} and {:g}, expected two ascending "
-                                                  "temperatures from -60 to 400",
-                                                  temperature[0], temperature[1]));
-  if (!(kinematic[1] >= 0.5 && kinematic[0] > kinematic[1] && kinematic[0] <= 1e6))
-    oil.fail(
-        "walther_mm2_s",
-        fmt::format("found {:g} and {:g}, expected two descending viscosities from 1e+06 to 0.5",
-                    kinematic[0], kinematic[1]));
-  laws.walther = {.temperature = {temperature[0] + kCelsius, temperature[1] + kCelsius},
-                  .kinematic = {kinematic[0] * 1e-6, kinematic[1] * 1e-6},
-                  .density = oil.number("density_kg_m3", Range::between(100.0, 5000.0))};
-}
-
-// One temperature, or one at each of ascending heights.
-void read_temperature(const Config& oil, film::ViscosityOptions& laws) {
-  const auto celsius = oil.is_list("temperature_c")
-                           ? oil.numbers("temperature_c")
-                           : std::vector<double>{oil.number("temperature_c")};
-  for (const double value : celsius)
-    if (!(value >= -60.0 && value <= 400.0))
-      oil.fail("temperature_c", fmt::format("found {:g}, expected -60 to 400", value));
-  const auto heights = oil.numbers_or("height_mm", {});
-  if (celsius.empty() || heights.size() != (celsius.size() > 1 ? celsius.size() : 0))
-    oil.fail("height_mm",
-             fmt::format("found {} heights for {} temperatures, expected as many, none "
-                         "for one temperature",
-                         heights.size(), celsius.size()));
-  for (size_t k = 0; k < heights.size(); ++k)
-    if (!(std::abs(heights[k]) <= kAnyHeight.max) || (k > 0 && !(heights[k] > heights[k - 1])))
-      oil.fail(
-          "height_mm",
-          fmt::format("found {:g}, expected ascending heights from -1e+04 to 1e+04", heights[k]));
-  for (const double height : heights) laws.height.push_back(height * kMilli);
-  for (const double value : celsius) laws.temperature.push_back(value + kCelsius);
+void check_oil(const Config& table, OilTable& oil) {
+  film::ViscosityOptions& laws = oil.laws;
+  if (oil.law == Law::kVogel) laws.vogel = oil.vogel;
+  if (oil.law == Law::kWalther) laws.walther = oil.walther;
+  if (table.has("shear_rate_1_s")) laws.cross = oil.cross;
+  const auto& kinematic = oil.walther.kinematic;
+  if (laws.walther && !(kinematic[0] > kinematic[1]))
+    table.fail("walther_mm2_s", fmt::format("found {:g} and {:g}, expected two descending "
+                                            "viscosities",
+                                            1e6 * kinematic[0], 1e6 * kinematic[1]));
+  const size_t values = laws.temperature.size(), heights = laws.height.size();
+  if (heights != (values > 1 ? values : 0))
+    table.fail("height_mm",
+               fmt::format("found {} heights for {} temperatures, expected as many, none "
+                           "for one temperature",
+                           heights, values));
 }
 
 }  // namespace
 
-void read_viscosity(const Config& table, film::PistonLinerOptions& options) {
-  const auto oil = table.find_table("oil");
-  if (!oil) return;
-  film::ViscosityOptions& laws = options.oil;
-  const std::string law = oil->choice("law", {"constant", "vogel", "walther"});
-  if (law == "vogel") read_vogel(*oil, laws);
-  if (law == "walther") read_walther(*oil, laws);
-  if (laws.by_temperature()) read_temperature(*oil, laws);
-  laws.pressure_coefficient =
-      oil->number_or("pressure_coefficient_1_gpa", 0.0, Range::between(0.0, 100.0)) * 1e-9;
-  if (oil->has("shear_rate_1_s"))
-    laws.cross = {.rate = oil->number("shear_rate_1_s", Range::between(1.0, 1e12)),
-                  .ratio = oil->number("shear_ratio", Range::between(0.0, 1.0)),
-                  .exponent = oil->number_or("shear_exponent", 1.0, Range::between(0.1, 2.0))};
-  with_context(oil->where(), [&] { film::Viscosity{laws, options.viscosity}; });
+const keys::Keys<OilTable>& oil_keys() {
+  static const keys::Keys<OilTable> keys(
+      "oil", "viscosity of the oil over temperature, pressure and shear rate",
+      [](auto& key, OilTable& oil) {
+        const keys::Values by_temperature{"vogel", "walther"};
+        key.where(oil.where);
+        key.choice(
+            "law", oil.law,
+            {{"constant", Law::kConstant}, {"vogel", Law::kVogel}, {"walther", Law::kWalther}},
+            "viscosity over temperature; constant is viscosity_pa_s");
+        key.number("vogel_a_pa_s", oil.vogel.a, Range::between(1e-9, 1.0),
+                   "a of a exp(b / (T - c))")
+            .of("law", "vogel");
+        key.number("vogel_b_k", oil.vogel.b, Range::between(0.0, 1e4), "b of a exp(b / (T - c))")
+            .of("law", "vogel");
+        key.number("vogel_c_c", oil.vogel.c, Range::between(-270.0, 50.0),
+                   "c of a exp(b / (T - c))")
+            .of("law", "vogel");
+        key.vector("walther_temperature_c", oil.walther.temperature, kCelsius,
+                   "two temperatures at which the viscosity is known")
+            .ascending()
+            .of("law", "walther");
+        key.vector("walther_mm2_s", oil.walther.kinematic, Range::between(0.5, 1e6),
+                   "kinematic viscosity there")
+            .of("law", "walther");
+        key.number("density_kg_m3", oil.walther.density, Range::between(100.0, 5000.0),
+                   "density of the oil")
+            .of("law", "walther");
+        key.one_or_more("temperature_c", oil.laws.temperature, kCelsius,
+                        "of the oil film, one or at each of height_mm")
+            .of("law", by_temperature);
+        key.numbers("height_mm", oil.laws.height, Range::between(-1e4, 1e4),
+                    "heights of the temperatures above the crank axis")
+            .ascending()
+            .needs("temperature_c");
+        key.number("pressure_coefficient_1_gpa", oil.laws.pressure_coefficient,
+                   Range::between(0.0, 100.0),
+                   "alpha of exp(alpha p), the growth of the viscosity with pressure; 0: none");
+        key.number("shear_rate_1_s", oil.cross.rate, Range::between(1.0, 1e12),
+                   "shear rate at which half of the part of polymers is left");
+        key.number("shear_ratio", oil.cross.ratio, Range::between(0.0, 1.0),
+                   "viscosity at the highest shear rates over that at rest")
+            .of("shear_rate_1_s");
+        key.number("shear_exponent", oil.cross.exponent, Range::between(0.1, 2.0),
+                   "of the shear rate")
+            .needs("shear_rate_1_s");
+        key.check(check_oil);
+      });
+  return keys;
 }
 
-void read_liner_oil(const Config& table, film::PistonLinerOptions& options) {
-  const auto oil = table.find_table("liner_oil");
-  if (!oil) return;
-  if (!options.effects.film || !options.effects.cavitation)
-    table.fail("liner_oil",
-               "found it without a film that cavitates, expected lubrication = "
-               "\"film\" and cavitation = true");
-  if (!table.has("oil_thickness_um"))
-    table.fail("oil_thickness_um",
-               "found none beside contact.liner_oil, expected the layer on the liner at the start");
-  if (options.supply_pressure > 0.0 || options.supply_fill < 1.0)
-    table.fail(options.supply_pressure > 0.0 ? "supply_pressure_bar" : "supply_fill",
-               "found beside contact.liner_oil, which supplies the skirt; expected one of the two");
-  if (oil->has("ring"))
-    oil->fail("ring", "found here, expected [[contact.ring]]: a ring has friction as well");
-  film::LinerLayerOptions& layer = options.liner_layer.emplace();
-  layer.cell = oil->number_or("cell_mm", 0.0, Range::between(0.0, 100.0)) * kMilli;
-  if (layer.cell > 0.0 && layer.cell < 0.01 * kMilli)
-    oil->fail("cell_mm", fmt::format("found {:g}, expected 0 (a row of the pad) or at least 0.01",
-                                     layer.cell / kMilli));
-  const double length = options.skirt_top - options.skirt_bottom;
-  if (2.0 * layer.cell > length)
-    oil->fail("cell_mm",
-              fmt::format("found {:g}, expected at most half of the skirt's length, {:g}",
-                          layer.cell / kMilli, 0.5 * length / kMilli));
-  layer.splash = oil->number_or("splash_um_s", 0.0, Range::between(0.0, 1e6)) * kMicro;
-  if (layer.splash > 0.0)
-    layer.splash_thickness = oil->number("splash_thickness_um", Range::between(1e-3, 1e5)) * kMicro;
-  if (oil->has("most_um")) layer.most = oil->number("most_um", Range::between(1e-3, 1e5)) * kMicro;
+const keys::Keys<film::LinerLayerOptions>& liner_oil_keys() {
+  static const keys::Keys<film::LinerLayerOptions> keys(
+      "liner_oil", "the oil on the liner, remembered where the skirt leaves it",
+      [](auto& key, film::LinerLayerOptions& layer) {
+        key.number("cell_mm", layer.cell, Range::between(0.0, 100.0),
+                   "height of its cells; 0: that of a row of the pad");
+        key.number("splash_um_s", layer.splash, Range::between(0.0, 1e6),
+                   "rate at which it thickens below the skirt");
+        key.number("splash_thickness_um", layer.splash_thickness, kThicknessUm,
+                   "thickness up to which it thickens by splash");
+        key.number("most_um", layer.most, kThicknessUm,
+                   "largest thickness below the skirt, more drips off; any without it");
+        key.check([](const Config& table, film::LinerLayerOptions& found) {
+          if (found.cell > 0.0 && found.cell < 0.01 * kMilli)
+            table.fail("cell_mm", fmt::format("found {:g}, expected 0 (a row of the pad) or at "
+                                              "least 0.01",
+                                              found.cell / kMilli));
+          if (found.splash > 0.0 && found.splash_thickness == 0.0)
+            table.fail("splash_thickness_um", "is missing, splash_um_s above 0 needs it");
+        });
+      });
+  return keys;
 }
 
 }  // namespace clatter::dynamics

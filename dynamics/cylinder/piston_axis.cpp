@@ -48,7 +48,7 @@ void check_piston_axis(const CylinderBodies& bodies) {
         fmt::format("{}: found {:.4g}, but {} of {} is {:.4g} mm from the pin, expected {:.4g} mm, "
                     "on the bore's "
                     "axis: make the reduced piston with this offset",
-                    spec.pin_offset_where, 1e3 * offset, what, piston.spec.rom.string(),
+                    spec.engine.pin_offset_where, 1e3 * offset, what, piston.spec.rom.string(),
                     1e3 * found + 0.0, 1e3 * (bore - offset)));
   };
   if (has_grid(piston, spec.piston.skirt)) {

@@ -3,58 +3,59 @@
 
 #include <fmt/format.h>
 
-#include "core/base/error.hpp"
 #include "core/base/units.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
-/// Two ascending numbers.
-std::pair<double, double> read_pair(const Config& entry, const char* key, Range range) {
-  const std::vector<double> found = entry.numbers(key, 2);
-  for (const double one : found)
-    if (!(one >= range.min && one <= range.max))
-      entry.fail(key, fmt::format("found {:g}, expected {:g} to {:g}", one, range.min, range.max));
-  if (!(found[1] > found[0]))
-    entry.fail(key, fmt::format("found {:g} after {:g}, expected more", found[1], found[0]));
-  return {found[0], found[1]};
-}
-
-film::Recess read_recess(const Config& entry) {
-  film::Recess recess;
-  const bool window = entry.choice("kind", {"groove", "window"}) == "window";
-  recess.kind = window ? film::Recess::Kind::kWindow : film::Recess::Kind::kGroove;
-  const auto [bottom, top] = read_pair(entry, "height_mm", Range::between(-1e4, 1e4));
-  recess.bottom = bottom * kMilli;
-  recess.top = top * kMilli;
-  if (entry.has("angle_deg")) {
-    const auto [begin, end] = read_pair(entry, "angle_deg", Range::between(-360.0, 720.0));
-    if (end - begin > 360.0)
-      entry.fail("angle_deg",
-                 fmt::format("found a span of {:g}, expected at most 360", end - begin));
-    recess.angle_begin = begin * kDegree;
-    recess.angle_span = (end - begin) * kDegree;
+void check_recess(const Config& table, RecessTable& found) {
+  film::Recess& recess = found.recess;
+  recess.bottom = found.height[0];
+  recess.top = found.height[1];
+  if (table.has("angle_deg")) {
+    const double span = found.angle[1] - found.angle[0];
+    if (span > 360.0)
+      table.fail("angle_deg", fmt::format("found a span of {:g}, expected at most 360", span));
+    recess.angle_begin = found.angle[0] * kDegree;
+    recess.angle_span = span * kDegree;
   }
-  for (const char* key : {"on", "pressure_bar", "fill"})
-    if (window && entry.has(key))
-      entry.fail(key,
-                 "found in a window, expected only in a groove: a window is a part of the "
-                 "skirt that is cut away, at the pressure of the crankcase");
-  if (window) return recess;
-  recess.on_liner = entry.choice("on", {"skirt", "liner"}) == "liner";
-  recess.pressure = entry.number_or("pressure_bar", 0.0, Range::between(0.0, 1e4)) * 1e5;
-  recess.fill = entry.number_or("fill", recess.fill, Range::between(0.0, 1.0));
   if (recess.pressure > 0.0 && recess.fill < 1.0)
-    entry.fail("fill", fmt::format("found {:g} under pressure, expected 1", recess.fill));
-  return recess;
+    table.fail("fill", fmt::format("found {:g} under pressure, expected 1", recess.fill));
 }
 
 }  // namespace
 
-std::vector<film::Recess> read_recesses(const Config& contact) {
-  std::vector<film::Recess> recesses;
-  for (const Config& entry : contact.tables("recess")) recesses.push_back(read_recess(entry));
-  return recesses;
+const keys::Keys<RecessTable>& recess_keys() {
+  using Kind = film::Recess::Kind;
+  static const keys::Keys<RecessTable> keys(
+      "recess", "a groove or hole of skirt or liner, or a window of the skirt",
+      [](auto& key, RecessTable& table) {
+        key.choice("kind", table.recess.kind,
+                   {{"groove", Kind::kGroove}, {"window", Kind::kWindow}},
+                   "connected to a reservoir, or cut away");
+        key.vector("height_mm", table.height, Range::between(-1e4, 1e4),
+                   "from and to, above the pin, on the liner above the crank axis")
+            .ascending()
+            .required();
+        key.vector("angle_deg", table.angle, Range::between(-360.0, 720.0),
+                   "from and to, right-handed about the bore from the thrust side; all around "
+                   "without it")
+            .unconverted()
+            .ascending();
+        key.all_need(
+            "kind", "groove",
+            "a window is a part of the skirt that is cut away, at the pressure of the crankcase",
+            [&] {
+              key.choice("on", table.recess.on_liner, {{"skirt", false}, {"liner", true}},
+                         "where the groove is");
+              key.number("pressure_bar", table.recess.pressure, Range::between(0.0, 1e4),
+                         "pressure of the oil in the groove over that of the crankcase");
+              key.number("fill", table.recess.fill, Range::between(0.0, 1.0),
+                         "part of the groove that is full of oil");
+            });
+        key.check(check_recess);
+      });
+  return keys;
 }
 
 }  // namespace clatter::dynamics

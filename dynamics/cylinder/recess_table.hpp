@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Grooves, holes and windows of skirt and liner: [[contact.recess]].
-#include <vector>
+#include <array>
 
-#include "core/base/config.hpp"
+#include "core/keys/keys.hpp"
 #include "dynamics/film/recess.hpp"
 
 namespace clatter::dynamics {
 
-/// Reads all entries of `contact`.recess. InputError "file:line: key: ...".
-std::vector<film::Recess> read_recesses(const Config& contact);
+struct RecessTable {
+  film::Recess recess;
+  std::array<double, 2> height{}, angle{};  // from, to [m], [deg]
+};
+const keys::Keys<RecessTable>& recess_keys();
 
 }  // namespace clatter::dynamics

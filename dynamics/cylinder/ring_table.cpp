@@ -7,68 +7,79 @@
 #include <utility>
 
 #include "core/base/units.hpp"
+#include "dynamics/component/component_keys.hpp"
 #include "dynamics/cylinder/cylinder_loads.hpp"
 #include "dynamics/cylinder/real_crank_element.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
-/// W' of the ring's own tension: given, or by the force in the closed ring.
-double read_load(const Config& ring, double bore_radius) {
-  const bool by_tension = ring.has("tangential_force_n");
-  if (by_tension && ring.has("load_n_mm"))
-    ring.fail("tangential_force_n", "found beside load_n_mm, expected one of the two");
-  if (by_tension) return ring.number("tangential_force_n", Range::between(1e-3, 1e5)) / bore_radius;
-  return ring.number("load_n_mm", Range::between(1e-4, 1e4)) / kMilli;
-}
-
-RingSpec read_ring(const Config& table, const film::PistonLinerOptions& contact) {
-  RingSpec ring;
-  ring.height = table.number("height_mm", Range::between(-1e4, 1e4)) * kMilli;
-  if (!(ring.height > contact.skirt_top))
-    table.fail("height_mm", fmt::format("found {:g}, expected above skirt_top_mm, {:g}",
-                                        ring.height / kMilli, contact.skirt_top / kMilli));
-  ring.face_radius = table.number("face_radius_mm", Range::between(1e-2, 1e4)) * kMilli;
-  ring.load = read_load(table, contact.bore_radius);
-  ring.least = table.number_or("least_um", 0.0, Range::between(0.0, 1e3)) * kMicro;
-  ring.gas_share = table.number_or("gas_share", 0.0, Range::between(0.0, 1.0));
-  const Range size = Range::between(1e-3, 1e3);
-  if (ring.gas_share > 0.0 || table.has("width_mm"))
-    ring.width = table.number("width_mm", size) * kMilli;
-  if (table.has("thickness_mm")) ring.thickness = table.number("thickness_mm", size) * kMilli;
-  if (!(ring.thickness < contact.bore_radius))
-    table.fail("thickness_mm", fmt::format("found {:g}, expected below the bore's radius, {:g}",
-                                           ring.thickness / kMilli, contact.bore_radius / kMilli));
-  ring.mass = table.number_or("mass_g", 0.0, Range::between(0.0, 1e6)) * kMilli;
-  const Range coefficient = Range::between(0.0, 10.0);
-  ring.boundary = table.number_or("friction_coefficient", ring.boundary, coefficient);
-  ring.roughness =
-      table.number_or("roughness_um", ring.roughness / kMicro, Range::between(1e-3, 1e3)) * kMicro;
-  ring.groove = table.number_or("groove_coefficient", ring.groove, coefficient);
-  return ring;
+void check_ring(const Config& table, RingTable& ring) {
+  if (ring.gas_share > 0.0 && ring.width == 0.0)
+    table.fail("width_mm", "is missing, gas_share above 0 needs it");
 }
 
 }  // namespace
 
-std::vector<RingSpec> read_rings(const Config& contact, film::PistonLinerOptions& options) {
+const Keys<RingTable>& ring_keys() {
+  static const Keys<RingTable> keys(
+      "ring", "a piston ring: the oil that it leaves on the liner, and its friction",
+      [](auto& key, RingTable& ring) {
+        const Range size = Range::between(1e-3, 1e3), coefficient = Range::between(0.0, 10.0);
+        key.number("height_mm", ring.height, Range::between(-1e4, 1e4),
+                   "of its middle above the pin, above the skirt")
+            .required();
+        key.number("face_radius_mm", ring.face_radius, Range::between(1e-2, 1e4),
+                   "radius of its face along the stroke")
+            .required();
+        key.number("load_n_mm", ring.load, Range::between(1e-4, 1e4),
+                   "radial load of its own tension on a length of the circumference");
+        key.number("tangential_force_n", ring.tangential, Range::between(1e-3, 1e5),
+                   "force in the closed ring, which makes that load");
+        key.one_of({"load_n_mm", "tangential_force_n"});
+        key.number("least_um", ring.least, Range::between(0.0, 1e3),
+                   "least layer of oil that it leaves: that in the valleys of the honing");
+        key.number("gas_share", ring.gas_share, Range::between(0.0, 1.0),
+                   "pressure behind it over that of the gas");
+        key.number("width_mm", ring.width, size, "along the stroke");
+        key.number("thickness_mm", ring.thickness, size, "radial, in its groove");
+        key.number("mass_g", ring.mass, Range::between(0.0, 1e6), "mass");
+        key.number("friction_coefficient", ring.boundary, coefficient,
+                   "of the rubbing face; 0: no friction on the liner");
+        key.number("roughness_um", ring.roughness, Range::between(1e-3, 1e3),
+                   "rms height of face and liner together");
+        key.number("groove_coefficient", ring.groove, coefficient,
+                   "friction of its sides; 0: the piston slides freely in it");
+        key.check(check_ring);
+      });
+  return keys;
+}
+
+std::vector<RingSpec> checked_rings(const Config& contact, const std::vector<RingTable>& found,
+                                    const film::PistonLinerOptions& options) {
+  const std::vector<Config> tables = contact.tables("ring");
   std::vector<RingSpec> rings;
-  for (const Config& table : contact.tables("ring")) {
-    rings.push_back(read_ring(table, options));
-    const RingSpec& ring = rings.back();
-    if (rings.size() < 2) continue;
-    const RingSpec& above = rings[rings.size() - 2];
-    if (!(ring.height < above.height))
+  for (size_t k = 0; k < found.size(); ++k) {
+    const Config& table = tables[k];
+    RingSpec ring = found[k];
+    if (found[k].tangential) ring.load = *found[k].tangential / options.bore_radius;
+    if (!(ring.height > options.skirt_top))
+      table.fail("height_mm", fmt::format("found {:g}, expected above skirt_top_mm, {:g}",
+                                          ring.height / kMilli, options.skirt_top / kMilli));
+    if (!(ring.thickness < options.bore_radius))
+      table.fail("thickness_mm",
+                 fmt::format("found {:g}, expected below the bore's radius, {:g}",
+                             ring.thickness / kMilli, options.bore_radius / kMilli));
+    if (k > 0 && !(ring.height < rings.back().height))
       table.fail("height_mm",
                  fmt::format("found {:g} after {:g}, expected the rings from the highest to the "
                              "lowest",
-                             ring.height / kMilli, above.height / kMilli));
-    if (ring.gas_share > above.gas_share)
+                             ring.height / kMilli, rings.back().height / kMilli));
+    if (k > 0 && ring.gas_share > rings.back().gas_share)
       table.fail("gas_share", fmt::format("found {:g} below a ring with {:g}, expected no more",
-                                          ring.gas_share, above.gas_share));
+                                          ring.gas_share, rings.back().gas_share));
+    rings.push_back(ring);
   }
-  if (options.liner_layer)
-    for (const RingSpec& ring : rings)
-      options.liner_layer->rings.push_back({ring.height, ring.face_radius, ring.load, ring.least});
   return rings;
 }
 

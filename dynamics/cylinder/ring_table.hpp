@@ -2,18 +2,25 @@
 #pragma once
 // [[contact.ring]]: the piston rings, for the layer of oil on the liner and for friction.
 #include <memory>
+#include <optional>
 #include <vector>
 
-#include "core/base/config.hpp"
+#include "core/keys/keys.hpp"
 #include "dynamics/cylinder/cylinder_bodies.hpp"
 #include "dynamics/cylinder/cylinder_elements.hpp"
 #include "dynamics/ring/ring_pack.hpp"
 
 namespace clatter::dynamics {
 
-/// The rings of `contact`, from the highest to the lowest; the layer of `options`, if it has one,
-/// gets them. InputError "file:line: contact.ring[0].key: ...".
-std::vector<RingSpec> read_rings(const Config& contact, film::PistonLinerOptions& options);
+struct RingTable : RingSpec {
+  std::optional<double> tangential;  // force in the closed ring, instead of the load [N]
+};
+const keys::Keys<RingTable>& ring_keys();
+
+/// The rings of the table `contact`, from the highest to the lowest. InputError for rings that are
+/// not above the skirt of `options` and each other.
+std::vector<RingSpec> checked_rings(const Config& contact, const std::vector<RingTable>& found,
+                                    const film::PistonLinerOptions& options);
 
 /// Adds the load of the gas behind the rings to those of the layer on the liner.
 void load_layer_rings(const std::vector<RingSpec>& rings, const TimeFunction& gas,

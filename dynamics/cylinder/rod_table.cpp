@@ -3,79 +3,79 @@
 
 #include <fmt/format.h>
 
-#include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/component/component_keys.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
-RodModel read_model(const Config& table) {
-  const std::string model = table.choice("model", {"rigid", "two-mass", "massless", "elastic"});
-  if (model == "two-mass") return RodModel::kTwoMass;
-  if (model == "massless") return RodModel::kMassless;
-  return model == "elastic" ? RodModel::kElastic : RodModel::kRigid;
-}
-
-void read_inertia(const Config& table, RodProperties& rod) {
-  // Beyond these the radius of gyration is over the length, or under a thousandth of it.
-  const double largest = rod.mass * rod.length * rod.length;
-  rod.inertia = table.number("inertia_kg_m2", Range::positive());
-  if (!(rod.inertia >= 1e-6 * largest && rod.inertia <= largest))
-    table.fail(
-        "inertia_kg_m2",
-        fmt::format("found {:g}, expected at least {:.3g} and at most {:.3g}, mass x length^2",
-                    rod.inertia, 1e-6 * largest, largest));
-}
-
-/// mass_kg, centre_mm and inertia_kg_m2, all of which a rigid rod has.
-void read_mass(const Config& table, bool needs_mass, bool needs_inertia, RodProperties& rod) {
-  if (needs_mass || table.has("mass_kg"))
-    rod.mass = table.number("mass_kg", Range::between(1e-6, 1e6));
-  if (needs_inertia || (table.has("inertia_kg_m2") && rod.mass > 0.0)) {
-    read_inertia(table, rod);
-  } else if (table.has("inertia_kg_m2")) {
-    table.number("inertia_kg_m2", Range::positive());
+void check_rod(const Config& table, DescribedRod& rod) {
+  RodSpec& spec = rod.spec;
+  RodProperties& found = rod.properties;
+  spec.body.name = "rod";
+  spec.body.motion = BodyMotion::kRod;
+  const bool rigid = spec.model == RodModel::kRigid, two = spec.model == RodModel::kTwoMass;
+  if (found.inertia > 0.0 && found.mass > 0.0) {
+    // Beyond these the radius of gyration is over the length, or under a thousandth of it.
+    const double largest = found.mass * found.length * found.length;
+    if (!(found.inertia >= 1e-6 * largest && found.inertia <= largest))
+      table.fail(
+          "inertia_kg_m2",
+          fmt::format("found {:g}, expected at least {:.3g} and at most {:.3g}, mass x length^2",
+                      found.inertia, 1e-6 * largest, largest));
   }
-  if (needs_mass || table.has("centre_mm"))
-    rod.centre = table.number("centre_mm", Range::between(0.0, rod.length / kMilli)) * kMilli;
-}
-
-void read_elastic(const Config& table, bool is_elastic, RodSpec& spec) {
-  BodySpec& body = spec.body;
-  body.name = "rod";
-  body.motion = BodyMotion::kRod;
-  if (is_elastic || table.has("rom")) body.rom = table.path("rom");
-  body.mode_limit_hz = table.number_or("mode_limit_hz", 0.0, Range::between(0.0, 1e9));
-  read_error_scales(table, body);
-  body.where = table.where();
-  spec.big_end = table.text_or("big_end", spec.big_end);
-  spec.small_end = table.text_or("small_end", spec.small_end);
+  if (found.centre > found.length)
+    table.fail("centre_mm", fmt::format("found {:g}, expected at most length_mm, {:g}",
+                                        found.centre / kMilli, found.length / kMilli));
+  if (two) {
+    if (!(found.centre > 0.0 && found.centre < found.length))
+      table.fail("centre_mm", fmt::format("found {:g} with model = \"two-mass\", expected between "
+                                          "the ends: a mass at one end has no inertia",
+                                          found.centre / kMilli));
+    spec.given_inertia = found.inertia;
+    found = two_mass_rod(found);
+  } else if (!rigid) {
+    found = {.length = found.length};
+  }
 }
 
 }  // namespace
 
-DescribedRod read_rod(const Config& table) {
-  DescribedRod rod;
-  RodSpec& spec = rod.spec;
-  spec.model = read_model(table);
-  spec.length_where = table.where("length_mm");
-  RodProperties& properties = rod.properties;
-  properties.length = table.number("length_mm", Range::between(1.0, 1e5)) * kMilli;
-  read_elastic(table, spec.model == RodModel::kElastic, spec);
-  const bool rigid = spec.model == RodModel::kRigid, two = spec.model == RodModel::kTwoMass;
-  read_mass(table, rigid || two, rigid, properties);
-  if (two) {
-    if (!(properties.centre > 0.0 && properties.centre < properties.length))
-      table.fail("centre_mm", fmt::format("found {:g} with model = \"two-mass\", expected between "
-                                          "the ends: a mass at one end has no inertia",
-                                          properties.centre / kMilli));
-    spec.given_inertia = properties.inertia;
-    properties = two_mass_rod(properties);
-  } else if (!rigid) {
-    properties = {.length = properties.length};
-  }
-  return rod;
+// Keys that the model does not use are those of a base scene: they are checked all the same.
+const Keys<DescribedRod>& rod_keys() {
+  static const Keys<DescribedRod> keys(
+      "rod", "the connecting rod", [](auto& key, DescribedRod& rod) {
+        RodSpec& spec = rod.spec;
+        const keys::Values with_mass{"rigid", "two-mass"};
+        key.where(spec.length_where, "length_mm");
+        key.where(spec.body.where);
+        key.choice("model", spec.model,
+                   {{"rigid", RodModel::kRigid},
+                    {"two-mass", RodModel::kTwoMass},
+                    {"massless", RodModel::kMassless},
+                    {"elastic", RodModel::kElastic}},
+                   "a rigid body, masses at its ends, a bar without mass, or a reduced model");
+        key.number("length_mm", rod.properties.length, Range::between(1.0, 1e5),
+                   "from the big end to the small end")
+            .required();
+        key.number("mass_kg", rod.properties.mass, Range::between(1e-6, 1e6), "mass")
+            .required_with("model", with_mass);
+        key.number("inertia_kg_m2", rod.properties.inertia, Range::positive(),
+                   "moment of inertia about the centre of mass, across the plane of the crank")
+            .required_with("model", "rigid");
+        key.number("centre_mm", rod.properties.centre, Range::between(0.0, 1e5),
+                   "from the big end to the centre of mass")
+            .required_with("model", with_mass);
+        key.path("rom", spec.body.rom, "reduced model of an elastic rod, stem.rom.h5")
+            .required_with("model", "elastic");
+        key.number("mode_limit_hz", spec.body.mode_limit_hz, Range::between(0.0, 1e9),
+                   "modes above have no inertia; 0: all have it");
+        error_scale_rows(key, spec.body);
+        key.text("big_end", spec.big_end, "set of the node of the big end");
+        key.text("small_end", spec.small_end, "set of the node of the small end");
+        key.check(check_rod);
+      });
+  return keys;
 }
 
 }  // namespace clatter::dynamics

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The [rod] table of a scene.
-#include "core/base/config.hpp"
+#include "core/keys/keys.hpp"
 #include "dynamics/body/rigid_rod.hpp"
 #include "dynamics/cylinder/rod_spec.hpp"
 
@@ -13,7 +13,6 @@ struct DescribedRod {
   RodProperties properties;  // of an elastic rod the length alone, until its model is read
 };
 
-/// Reads [rod]. Keys that its model does not use are checked, and optional.
-DescribedRod read_rod(const Config& table);
+const keys::Keys<DescribedRod>& rod_keys();
 
 }  // namespace clatter::dynamics

@@ -29,22 +29,25 @@ void refuse_elastic(const std::vector<ScaledShapeSpec>& shapes, const char* part
 
 }  // namespace
 
-std::optional<ShapeScale> read_shape_scale(const Config& entry) {
-  ShapeScale scale;
-  if (entry.has("scale") && entry.has("scale_table"))
-    entry.fail("scale_table", "found beside scale, expected one of the two");
-  if (entry.has("scale")) {
-    entry.choice("scale", {"gas"});
-    scale.reference = entry.number("at_bar", Range::between(0.1, 1e4)) * 1e5;
-    scale.where = entry.where("scale");
-    return scale;
-  }
-  if (!entry.has("scale_table")) return std::nullopt;
-  scale.table = entry.path("scale_table");
-  scale.where = entry.where("scale_table");
-  scale.factor = read_cycle_table(scale.table, entry.text_or("scale_column", "scale"), "1",
-                                  Spline::Kind::kMonotoneCubic);
-  return scale;
+const keys::Keys<ShapeScale>& shape_scale_keys() {
+  static const keys::Keys<ShapeScale> keys(
+      "scale", "factor of a shape over the cycle", [](auto& key, ShapeScale& scale) {
+        key.choice("scale", scale.by_gas, {{"gas", true}},
+                   "the shape is times the pressure of the gas over at_bar");
+        key.number("at_bar", scale.reference, Range::between(0.1, 1e4),
+                   "gauge pressure of the gas at which the shape is as given")
+            .of("scale");
+        key.path("scale_table", scale.table, "CSV of its factor over the crank angle")
+            .excludes("scale");
+        key.text("scale_column", scale.column, "column of the factor").needs("scale_table");
+        key.check([](const Config& table, ShapeScale& found) {
+          found.where = table.where(found.by_gas ? "scale" : "scale_table");
+          if (!found.table.empty())
+            found.factor =
+                read_cycle_table(found.table, found.column, "1", Spline::Kind::kMonotoneCubic);
+        });
+      });
+  return keys;
 }
 
 film::ScaledShape scaled_shape(const ScaledShapeSpec& spec, const CylinderSpec& cylinder,

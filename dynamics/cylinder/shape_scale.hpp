@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Shapes of rigid surfaces that a factor scales over the cycle: keys scale, at_bar, scale_table.
+// Shapes of rigid surfaces that a factor scales over the cycle: keys scale, at_bar, scale_table,
+// scale_column.
 #include <filesystem>
 #include <optional>
 #include <string>
 
-#include "core/base/config.hpp"
+#include "core/keys/keys.hpp"
 #include "dynamics/cylinder/real_crank.hpp"
 #include "dynamics/film/cycle_scale.hpp"
 #include "dynamics/given/spline.hpp"
@@ -16,19 +17,20 @@ struct CylinderSpec;
 
 /// The factor of a shape over the crank angle from the cylinder's firing TDC.
 struct ShapeScale {
-  double reference = 0.0;       // the shape is that at this gauge pressure of the gas [Pa]; or
+  std::optional<bool> by_gas;   // the shape is that at
+  double reference = 0.0;       // this gauge pressure of the gas [Pa]; or
   std::filesystem::path table;  // the factor is a column of this file
+  std::string column = "scale";
   std::optional<Spline> factor;
   std::string where;  // "file:line: key", for messages
+  bool is_given() const { return by_gas || factor; }
 };
+const keys::Keys<ShapeScale>& shape_scale_keys();
 
 struct ScaledShapeSpec {
   film::LinerShape shape;
   ShapeScale scale;
 };
-
-/// Those keys of a shape; nothing where it has none. InputError "file:line: key: ...".
-std::optional<ShapeScale> read_shape_scale(const Config& entry);
 
 /// The shape with its factor over time. @param gas the cylinder's pressure. InputError for gas that
 /// the scene does not have.

@@ -43,10 +43,11 @@ film::LinerShape sorted(const Eigen::VectorXd& angle, const Eigen::VectorXd& hei
 }
 
 /// A case of a shape file, in the film's angles: from +y, right-handed about z.
-film::LinerShape of_file(const Config& entry, const std::filesystem::path& path) {
+film::LinerShape of_file(const Config& entry, const ShapeTable& table) {
+  const std::filesystem::path& path = table.file;
+  const std::string& name = table.name;
   const H5File file = open_artefact(path, kShapeSchema);
   const std::vector<std::string> cases = file.list(kShapeCases);
-  const std::string name = entry.text("case");
   if (std::find(cases.begin(), cases.end(), name) == cases.end())
     entry.fail("case", fmt::format("found \"{}\", expected one of {}: {}", name, path.string(),
                                    fmt::join(cases, ", ")));
@@ -76,24 +77,11 @@ film::LinerShape of_file(const Config& entry, const std::filesystem::path& path)
   return sorted(angle, height, deviation);
 }
 
-std::vector<double> ascending(const Config& entry, const char* key, double factor) {
-  std::vector<double> values = entry.numbers(key);
-  for (size_t k = 1; k < values.size(); ++k)
-    if (!(values[k] > values[k - 1]))
-      entry.fail(key, fmt::format("found {:g} after {:g}, expected ascending values", values[k],
-                                  values[k - 1]));
-  if (values.empty()) entry.fail(key, "found none, expected at least one value");
-  for (double& value : values) value *= factor;
-  return values;
-}
-
 /// A measured shape: a table over the height with a column for each angle.
-film::LinerShape of_table(const Config& entry, const std::filesystem::path& path) {
-  const std::vector<std::string> columns = entry.texts("columns");
-  const std::vector<double> angle = ascending(entry, "angle_deg", kDegree);
-  if (columns.size() != angle.size())
-    entry.fail("columns", fmt::format("found {}, expected one for each of {} angles",
-                                      columns.size(), angle.size()));
+film::LinerShape of_table(const Config& entry, const ShapeTable& table) {
+  const std::filesystem::path& path = table.table;
+  const std::vector<std::string>& columns = table.columns;
+  const std::vector<double>& angle = table.angle;
   if (angle.back() - angle.front() >= kTurn)
     entry.fail("angle_deg", "found a turn or more, expected angles within one turn");
   Eigen::VectorXd height;
@@ -114,14 +102,9 @@ film::LinerShape of_table(const Config& entry, const std::filesystem::path& path
 }
 
 /// amplitude(z) cos(m (angle - phase)).
-film::LinerShape of_order(const Config& entry) {
-  const auto order = static_cast<double>(entry.integer_or("order", 0, Range::between(0.0, 20.0)));
-  const double phase = entry.number_or("phase_deg", 0.0, Range::between(-360.0, 360.0)) * kDegree;
-  const std::vector<double> height = ascending(entry, "height_mm", kMilli);
-  const std::vector<double> amplitude = entry.numbers("amplitude_um");
-  if (amplitude.size() != height.size())
-    entry.fail("amplitude_um", fmt::format("found {} values, expected one for each of {} heights",
-                                           amplitude.size(), height.size()));
+film::LinerShape of_order(const ShapeTable& table) {
+  const double order = *table.order, phase = table.phase;
+  const std::vector<double>&height = table.height, &amplitude = table.amplitude;
   const int n = order == 0.0 ? 1 : kAngles;
   film::LinerShape shape{Eigen::VectorXd(n),
                          Eigen::Map<const Eigen::VectorXd>(height.data(), std::ssize(height)),
@@ -130,42 +113,59 @@ film::LinerShape of_order(const Config& entry) {
     shape.angle(i) = kTurn * i / n;
     for (size_t k = 0; k < amplitude.size(); ++k)
       shape.deviation(i, static_cast<Eigen::Index>(k)) =
-          amplitude[k] * kMicro * std::cos(order * (shape.angle(i) - phase));
+          amplitude[k] * std::cos(order * (shape.angle(i) - phase));
   }
   return shape;
 }
 
+void make_shape(const Config& entry, ShapeTable& found) {
+  film::LinerShape& shape = found.shape;
+  shape = found.order          ? of_order(found)
+          : found.file.empty() ? of_table(entry, found)
+                               : of_file(entry, found);
+  shape.deviation *= found.factor;
+  constexpr double kLargest = 0.01;  // [m]
+  if (!(shape.deviation.cwiseAbs().maxCoeff() <= kLargest))
+    entry.fail("factor",
+               fmt::format("found deviations of {:.3g} mm, expected at most {:g}",
+                           shape.deviation.cwiseAbs().maxCoeff() / kMilli, kLargest / kMilli));
+}
+
 }  // namespace
 
-SurfaceShapes read_surface_shapes(const Config& contact, const char* key) {
-  SurfaceShapes found;
-  for (const Config& entry : contact.tables(key)) {
-    const int kinds = entry.has("file") + entry.has("table") + entry.has("order");
-    if (kinds != 1)
-      entry.fail(kinds == 0 ? "file" : "order",
-                 fmt::format("found {} of file, table and order, expected one of them", kinds));
-    film::LinerShape shape;
-    if (entry.has("order")) {
-      shape = of_order(entry);
-    } else {
-      const bool is_file = entry.has("file");
-      found.files.push_back(entry.path(is_file ? "file" : "table"));
-      shape = is_file ? of_file(entry, found.files.back()) : of_table(entry, found.files.back());
-    }
-    shape.deviation *= entry.number_or("factor", 1.0, Range::between(-1e3, 1e3));
-    constexpr double kLargest = 0.01;  // [m]
-    if (!(shape.deviation.cwiseAbs().maxCoeff() <= kLargest))
-      entry.fail("factor",
-                 fmt::format("found deviations of {:.3g} mm, expected at most {:g}",
-                             shape.deviation.cwiseAbs().maxCoeff() / kMilli, kLargest / kMilli));
-    if (auto scale = read_shape_scale(entry)) {
-      if (!scale->table.empty()) found.files.push_back(scale->table);
-      found.scaled.push_back({std::move(shape), std::move(*scale)});
-    } else {
-      found.shapes.push_back(std::move(shape));
-    }
-  }
-  return found;
+const keys::Keys<ShapeTable>& shape_keys() {
+  static const keys::Keys<ShapeTable> keys(
+      "shape", "a deviation of a surface: of a file, measured, or an order around",
+      [](auto& key, ShapeTable& table) {
+        key.path("file", table.file, "shape file, as clatter-modal writes it");
+        key.text("case", table.name, "load case of the file").of("file");
+        key.path("table", table.table, "CSV of deviations over the height, a column an angle");
+        key.numbers("angle_deg", table.angle, Range::between(-1e6, 1e6),
+                    "angle of each column, right-handed from the thrust side")
+            .ascending()
+            .of("table");
+        key.texts("columns", table.columns, "columns of the table, one for each angle")
+            .as_many_as("angle_deg")
+            .of("table");
+        key.integer("order", table.order, Range::between(0.0, 20.0),
+                    "waves around the bore; 0: the same all around");
+        key.one_of({"file", "table", "order"});
+        key.number("phase_deg", table.phase, Range::between(-360.0, 360.0),
+                   "angle of a crest of the order")
+            .needs("order");
+        key.numbers("height_mm", table.height, Range::between(-1e6, 1e6),
+                    "heights of the amplitudes of the order")
+            .ascending()
+            .of("order");
+        key.numbers("amplitude_um", table.amplitude, Range::between(-1e9, 1e9),
+                    "amplitude of the order at each height, outward positive")
+            .as_many_as("height_mm")
+            .of("order");
+        key.number("factor", table.factor, Range::between(-1e3, 1e3), "of all deviations");
+        key.part(table.scale, shape_scale_keys());
+        key.check(make_shape);
+      });
+  return keys;
 }
 
 }  // namespace clatter::dynamics

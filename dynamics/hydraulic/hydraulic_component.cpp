@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/base/error.hpp"
+#include "dynamics/component/component_keys.hpp"
 #include "dynamics/given/csv_table.hpp"
 #include "dynamics/given/load_table.hpp"
 #include "dynamics/hydraulic/hydraulic_catalogue.hpp"
@@ -47,11 +48,11 @@ void require_pressures(const SupplySpec& supply) {
           supply.table.string(), rows.lines[i], rows.name, 1e-5 * rows.y[i]));
 }
 
-ComponentList read_all(const Config& root, const std::string& kind, HydraulicSpec defaults) {
+ComponentList read_all(const Config& root, const std::string& kind,
+                       const Keys<HydraulicSpec>& keys) {
   ComponentList list;
-  defaults.kind = kind;
-  for (const Config& table : root.tables(kind))
-    list.push_back(std::make_shared<HydraulicComponent>(read_hydraulic(table, defaults)));
+  for (HydraulicSpec& spec : read_named(root, kind, keys))
+    list.push_back(std::make_shared<HydraulicComponent>(std::move(spec)));
   return list;
 }
 
@@ -136,10 +137,12 @@ void HydraulicComponent::add_effects(const ModelBuilder&, EffectTable& effects) 
               is_hydraulic() && chamber.relief.opening > 0.0, "relief");
 }
 
-ComponentList read_tensioners(const Config& root) { return read_all(root, "tensioner", {}); }
+ComponentList read_tensioners(const Config& root) {
+  return read_all(root, "tensioner", tensioner_keys());
+}
 
 ComponentList read_lash_adjusters(const Config& root) {
-  return read_all(root, "lash_adjuster", lash_adjuster_defaults());
+  return read_all(root, "lash_adjuster", lash_adjuster_keys());
 }
 
 }  // namespace clatter::dynamics

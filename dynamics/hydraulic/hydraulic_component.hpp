@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/keys/keys.hpp"
 #include "dynamics/component/component.hpp"
 #include "dynamics/component/model_builder.hpp"
 #include "dynamics/component/run_time.hpp"
@@ -24,9 +25,9 @@ struct SupplySpec {
 
 /// One [[tensioner]] or [[lash_adjuster]]; the defaults are those of a timing drive's tensioner.
 struct HydraulicSpec {
-  std::string kind, name, where;  // "tensioner", its name; for messages
-  PointSpec a, b;                 // of housing and plunger
-  Eigen::Vector3d axis;           // from housing to plunger, at the start
+  std::string kind, name, where;                    // "tensioner", its name; for messages
+  PointSpec a, b;                                   // of housing and plunger
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // from housing to plunger, at the start
   HydraulicModel model = HydraulicModel::kHydraulic;
   double travel = 0.0;                   // at the start [m]
   std::optional<double> start_pressure;  // of the chamber [Pa]; else that of the supply
@@ -36,14 +37,13 @@ struct HydraulicSpec {
   SupplySpec supply;
 };
 
-/// Reads a table of `kind` over the defaults of `spec`.
-HydraulicSpec read_hydraulic(const Config& table, HydraulicSpec spec);
-/// Its keys without name, points, axis and model.
-void read_hydraulic_sizes(const Config& table, HydraulicSpec& spec);
+const keys::Keys<HydraulicSpec>& tensioner_keys();
+/// With the defaults of a roller finger follower's adjuster.
+const keys::Keys<HydraulicSpec>& lash_adjuster_keys();
+/// Their sizes alone, with ends of the travel: of the adjusters in a valve train.
+const keys::Keys<HydraulicSpec>& train_adjuster_keys();
 /// The pressure of the supply over time. InputError for a table that does not cover the run.
 TimeFunction supply_pressure(const SupplySpec& supply, const ModelBuilder& model);
-/// The defaults of a [[lash_adjuster]] of a roller finger follower.
-HydraulicSpec lash_adjuster_defaults();
 
 /// A hydraulic element and, for the hydraulic model, the body "<name>_chamber" of its own
 /// coordinates. Its element and histories are named "<kind> <name>".

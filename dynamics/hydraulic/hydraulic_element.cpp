@@ -82,8 +82,8 @@ std::pair<double, double> HydraulicElement::force(double travel, double pressure
 }
 
 double HydraulicElement::in_stop(double travel) const {
-  if (travel < stops_.lowest) return stops_.lowest - travel;
-  return std::min(stops_.highest - travel, 0.0);
+  if (travel < stops_.ends[0]) return stops_.ends[0] - travel;
+  return std::min(stops_.ends[1] - travel, 0.0);
 }
 
 void HydraulicElement::move(double time, const VectorXd& y, const VectorXd& v, Instant& at) const {

@@ -22,9 +22,10 @@ struct PlungerSpring {
 
 /// Elastic ends of the plunger's travel.
 struct PlungerStops {
-  double lowest = -std::numeric_limits<double>::infinity();  // [m]
-  double highest = std::numeric_limits<double>::infinity();  // [m]
-  double stiffness = 1e8;                                    // [N/m]
+  /// Lowest and highest travel [m].
+  std::array<double, 2> ends{-std::numeric_limits<double>::infinity(),
+                             std::numeric_limits<double>::infinity()};
+  double stiffness = 1e8;  // [N/m]
 };
 
 /// How the pressure on the plunger is found.

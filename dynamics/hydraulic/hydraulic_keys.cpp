@@ -8,110 +8,150 @@
 namespace clatter::dynamics {
 namespace {
 
-constexpr double kBar = 1e5, kGiga = 1e9;
 // The fluid's law needs a pressure above 0.
 const Range kPressureBar = Range::between(1e-3, 1e4);
+const Range kMillimetres = Range::between(1e-3, 1e3);
+const Range kForce = Range::between(0.0, 1e6), kRate = Range::between(0.0, 1e12);
 
-/// A key of `unit` SI units with a default in SI.
-void read_value(const Config& table, std::string_view key, double unit, const Range& range,
-                double& value) {
-  value = table.number_or(key, value / unit, range) * unit;
-}
-
-void read_oil(const Config& table, OilSpec& oil) {
-  read_value(table, "viscosity_mpa_s", kMilli, Range::between(1e-3, 1e5), oil.viscosity);
-  read_value(table, "density_kg_m3", 1.0, Range::between(1.0, 2e4), oil.density);
-  read_value(table, "modulus_gpa", kGiga, Range::between(1e-3, 100.0), oil.modulus);
-  read_value(table, "free_air", 1.0, Range::between(1e-5, 0.5), oil.free_air);
-  read_value(table, "polytropic_exponent", 1.0, Range::between(1.0 + 1e-6, 2.0), oil.polytropic);
-}
-
-void read_leak(const Config& table, LeakGap& leak) {
-  read_value(table, "gap_um", kMicro, Range::between(0.0, 1e4), leak.height);
-  read_value(table, "gap_length_mm", kMilli, Range::between(1e-3, 1e4), leak.length);
-  read_value(table, "eccentricity", 1.0, Range::between(0.0, 1.0), leak.eccentricity);
-  leak.to_supply = table.choice("leak_to", {"outside", "supply"}) == "supply";
-}
-
-void read_ball(const Config& table, CheckValveSpec& valve) {
-  const Range millimetres = Range::between(1e-3, 1e3);
-  const Range force = Range::between(0.0, 1e6), rate = Range::between(0.0, 1e12);
-  read_value(table, "ball_mm", kMilli, millimetres, valve.ball_diameter);
-  read_value(table, "ball_density_kg_m3", 1.0, Range::between(10.0, 3e4), valve.ball_density);
-  read_value(table, "spring_force_n", 1.0, force, valve.spring_force);
-  read_value(table, "spring_rate_n_m", 1.0, rate, valve.spring_rate);
-  read_value(table, "contact_stiffness_n_m", 1.0, Range::between(1.0, 1e15),
-             valve.contact_stiffness);
-  read_value(table, "contact_damping_s_m", 1.0, Range::between(0.0, 1e6), valve.contact_damping);
-  read_value(table, "drag_n_s_m", 1.0, Range::between(0.0, 1e6), valve.drag);
-  if (valve.ball_diameter <= valve.seat_diameter)
+void check_valve_sizes(const Config& table, CheckValveSpec& valve) {
+  if (valve.full_opening <= valve.opening)
+    table.fail("full_opening_bar", fmt::format("found {:g}, expected more than opening_bar = {:g}",
+                                               1e-5 * valve.full_opening, 1e-5 * valve.opening));
+  if (valve.ball == CheckValveSpec::Ball::kMoving && valve.ball_diameter <= valve.seat_diameter)
     table.fail("ball_mm", fmt::format("found {:g}, expected more than the seat's {:g}",
                                       valve.ball_diameter / kMilli, valve.seat_diameter / kMilli));
 }
 
-void read_check_valve(const Config& table, CheckValveSpec& valve) {
+const Keys<CheckValveSpec>& check_valve_keys() {
   using Ball = CheckValveSpec::Ball;
-  const std::string ball =
-      table.choice("ball", {"quasi_static", "moving", "stuck_shut", "stuck_open"});
-  valve.ball = ball == "moving"       ? Ball::kMoving
-               : ball == "stuck_shut" ? Ball::kStuckShut
-               : ball == "stuck_open" ? Ball::kStuckOpen
-                                      : Ball::kQuasiStatic;
-  const Range millimetres = Range::between(1e-3, 1e3);
-  read_value(table, "seat_mm", kMilli, millimetres, valve.seat_diameter);
-  read_value(table, "lift_mm", kMilli, millimetres, valve.lift);
-  read_value(table, "discharge", 1.0, Range::between(1e-3, 1.0), valve.discharge);
-  read_value(table, "laminar_below_pa", 1.0, Range::between(1e-3, 1e6), valve.laminar);
-  read_value(table, "opening_bar", kBar, Range::between(0.0, 1e3), valve.opening);
-  read_value(table, "full_opening_bar", kBar, Range::between(1e-6, 1e3), valve.full_opening);
-  if (valve.full_opening <= valve.opening)
-    table.fail("full_opening_bar", fmt::format("found {:g}, expected more than opening_bar = {:g}",
-                                               valve.full_opening / kBar, valve.opening / kBar));
-  if (valve.ball == Ball::kMoving) read_ball(table, valve);
+  static const Keys<CheckValveSpec> keys(
+      "check_valve", "ball valve between supply and chamber", [](auto& key, CheckValveSpec& valve) {
+        key.choice("ball", valve.ball,
+                   {{"quasi_static", Ball::kQuasiStatic},
+                    {"moving", Ball::kMoving},
+                    {"stuck_shut", Ball::kStuckShut},
+                    {"stuck_open", Ball::kStuckOpen}},
+                   "without mass, with mass, or a defect");
+        key.number("seat_mm", valve.seat_diameter, kMillimetres, "diameter of the seat");
+        key.number("lift_mm", valve.lift, kMillimetres, "of the ball up to its stop");
+        key.number("discharge", valve.discharge, Range::between(1e-3, 1.0),
+                   "discharge coefficient of the opening, pi seat_mm times the lift");
+        key.number("laminar_below_pa", valve.laminar, Range::between(1e-3, 1e6),
+                   "pressure difference below which the flow is laminar");
+        key.number("opening_bar", valve.opening, Range::between(0.0, 1e3),
+                   "pressure difference at which a ball without mass begins to open");
+        key.number("full_opening_bar", valve.full_opening, Range::between(1e-6, 1e3),
+                   "pressure difference at which a ball without mass is open");
+        key.all_need("ball", "moving", "", [&] {
+          key.number("ball_mm", valve.ball_diameter, kMillimetres, "diameter of the ball");
+          key.number("ball_density_kg_m3", valve.ball_density, Range::between(10.0, 3e4),
+                     "density of the ball");
+          key.number("spring_force_n", valve.spring_force, kForce,
+                     "of the ball's spring on the seat");
+          key.number("spring_rate_n_m", valve.spring_rate, kRate, "of the ball's spring");
+          key.number("contact_stiffness_n_m", valve.contact_stiffness, Range::between(1.0, 1e15),
+                     "of the ball with seat and stop");
+          key.number(
+              "contact_damping_s_m", valve.contact_damping, kForce,
+              "of seat and stop: the force is times 1 + damping times the rate of the depth");
+          key.number("drag_n_s_m", valve.drag, kForce, "of the oil round the ball");
+        });
+        key.check(check_valve_sizes);
+      });
+  return keys;
 }
 
-void read_supply(const Config& table, SupplySpec& supply) {
-  if (!table.has("supply_table")) {
-    read_value(table, "supply_bar", kBar, kPressureBar, supply.pressure);
-    return;
+const Keys<ReliefSpec>& relief_keys() {
+  static const Keys<ReliefSpec> keys(
+      "relief", "valve that lets oil out of the chamber", [](auto& key, ReliefSpec& relief) {
+        key.number("opening_bar", relief.opening, kPressureBar,
+                   "pressure difference at which it opens")
+            .required();
+        key.number("gradient_ml_s_bar", relief.gradient, Range::between(1e-9, 1e9),
+                   "flow over pressure difference above it")
+            .required();
+      });
+  return keys;
+}
+
+/// What the sizes imply together: air in a dry chamber, and volumes that are left.
+void check_volumes(const Config& table, HydraulicSpec& spec) {
+  ChamberSpec& chamber = spec.chamber;
+  if (chamber.dry) {
+    chamber.oil = dry_air(chamber.oil.polytropic);
+    spec.supply = {chamber.outside, {}, "", Spline::Kind::kLinear};
   }
-  supply.table = table.path("supply_table");
-  supply.column = table.text_or("supply_column", "");
-  supply.interpolation = read_interpolation(table, "linear");
+  if (!(chamber.volume + chamber.area() * spec.travel > 0.0))
+    table.fail("start_travel_mm", fmt::format("found {:g}, expected one that leaves a volume: "
+                                              "travel 0 has {:g} cm3",
+                                              spec.travel / kMilli, 1e6 * chamber.volume));
+  if (!table.has("stops_mm")) return;
+  const auto [lowest, highest] = spec.stops.ends;
+  if (!(lowest <= spec.travel && spec.travel <= highest))
+    table.fail("stops_mm",
+               fmt::format("found [{:g}, {:g}], expected the ends of the travel, with the start "
+                           "at {:g} between them",
+                           lowest / kMilli, highest / kMilli, spec.travel / kMilli));
+  if (!(chamber.volume + chamber.area() * lowest > 0.0))
+    table.fail("stops_mm", fmt::format("found {:g}, expected a lowest travel that leaves a "
+                                       "volume: travel 0 has {:g} cm3",
+                                       lowest / kMilli, 1e6 * chamber.volume));
 }
 
-HydraulicModel read_model(const Config& table) {
-  const std::string model =
-      table.choice("model", {"hydraulic", "constant_pressure", "constant_force"});
-  if (model == "constant_pressure") return HydraulicModel::kConstantPressure;
-  if (model == "constant_force") return HydraulicModel::kConstantForce;
-  return HydraulicModel::kHydraulic;
+void add_oil(Keys<HydraulicSpec>& key, OilSpec& oil) {
+  key.number("viscosity_mpa_s", oil.viscosity, Range::between(1e-3, 1e5),
+             "dynamic viscosity of the oil");
+  key.number("density_kg_m3", oil.density, Range::between(1.0, 2e4), "density of the oil at 1 bar");
+  key.number("modulus_gpa", oil.modulus, Range::between(1e-3, 100.0),
+             "bulk modulus of the oil without air");
+  key.number("free_air", oil.free_air, Range::between(1e-5, 0.5),
+             "volume of free air over that of oil, at 1 bar");
+  key.number("polytropic_exponent", oil.polytropic, Range::between(1.0 + 1e-6, 2.0),
+             "of the free air");
 }
 
-/// Both ends of the travel, of which the lower one leaves a volume.
-void read_stops(const Config& table, HydraulicSpec& spec) {
-  PlungerStops& stops = spec.stops;
-  if (table.has("stops_mm")) {
-    const std::vector<double> ends = table.numbers("stops_mm", 2);
-    stops.lowest = ends[0] * kMilli;
-    stops.highest = ends[1] * kMilli;
-    if (!(stops.lowest <= spec.travel && spec.travel <= stops.highest && ends[1] <= 1e4))
-      table.fail("stops_mm",
-                 fmt::format("found [{:g}, {:g}], expected the ends of the travel, with the start "
-                             "at {:g} between them",
-                             ends[0], ends[1], spec.travel / kMilli));
-    if (!(spec.chamber.volume + spec.chamber.area() * stops.lowest > 0.0))
-      table.fail("stops_mm", fmt::format("found {:g}, expected a lowest travel that leaves a "
-                                         "volume: travel 0 has {:g} cm3",
-                                         ends[0], 1e6 * spec.chamber.volume));
-  }
-  read_value(table, "stop_stiffness_n_m", 1.0, Range::between(1.0, 1e15), stops.stiffness);
+void add_supply(Keys<HydraulicSpec>& key, SupplySpec& supply) {
+  key.number("supply_bar", supply.pressure, kPressureBar, "absolute pressure of the oil supply")
+      .excludes("supply_table");
+  key.path(
+      "supply_table", supply.table,
+      "CSV of the supply's pressure over time, with an engine or cycle_of over the crank angle");
+  key.text("supply_column", supply.column, "column of the table; without it the second one")
+      .needs("supply_table");
+  interpolation_row(key, supply.interpolation).needs("supply_table");
 }
 
-}  // namespace
+void add_sizes(Keys<HydraulicSpec>& key, HydraulicSpec& spec) {
+  ChamberSpec& chamber = spec.chamber;
+  key.number("start_bar", spec.start_pressure, kPressureBar,
+             "absolute pressure of the chamber at the start; that of the supply without it");
+  key.number("diameter_mm", chamber.diameter, Range::between(1e-2, 1e4), "of the plunger");
+  key.number("volume_cm3", chamber.volume, Range::between(1e-6, 1e9), "of the chamber at travel 0");
+  key.number("outside_bar", chamber.outside, kPressureBar, "absolute pressure behind the plunger");
+  key.number("spring_force_n", spec.spring.force, kForce, "of the plunger's spring at travel 0");
+  key.number("spring_rate_n_m", spec.spring.rate, kRate, "of the plunger's spring");
+  add_oil(key, chamber.oil);
+  key.number("gap_um", chamber.leak.height, Range::between(0.0, 1e4),
+             "radial leak gap round the plunger; 0: sealed");
+  key.number("gap_length_mm", chamber.leak.length, Range::between(1e-3, 1e4), "of the leak gap");
+  key.number("eccentricity", chamber.leak.eccentricity, Range::between(0.0, 1.0),
+             "of the plunger in its housing, over the gap");
+  key.choice("leak_to", chamber.leak.to_supply, {{"outside", false}, {"supply", true}},
+             "where the leaked oil goes");
+  add_supply(key, spec.supply);
+  key.table("check_valve", chamber.valve, check_valve_keys());
+  key.table("relief", chamber.relief, relief_keys());
+  key.flag("dry", chamber.dry, "air instead of oil in chamber and supply");
+  key.vector("stops_mm", spec.stops.ends, Range::between(-1e4, 1e4),
+             "lowest and highest travel of the plunger; without them it is free");
+  key.number("stop_stiffness_n_m", spec.stops.stiffness, Range::between(1.0, 1e15),
+             "of both ends of the travel");
+  key.check(check_volumes);
+}
 
 HydraulicSpec lash_adjuster_defaults() {
   HydraulicSpec spec;
+  spec.kind = "lash_adjuster";
   spec.spring = {12.0, 0.0};
   ChamberSpec& chamber = spec.chamber;
   chamber.diameter = 9e-3;
@@ -124,46 +164,55 @@ HydraulicSpec lash_adjuster_defaults() {
   return spec;
 }
 
-void read_hydraulic_sizes(const Config& table, HydraulicSpec& spec) {
-  const Range force = Range::between(0.0, 1e6), rate = Range::between(0.0, 1e12);
-  ChamberSpec& chamber = spec.chamber;
-  read_value(table, "start_travel_mm", kMilli, Range::between(-1e4, 1e4), spec.travel);
-  if (table.has("start_bar")) spec.start_pressure = table.number("start_bar", kPressureBar) * kBar;
-  read_value(table, "diameter_mm", kMilli, Range::between(1e-2, 1e4), chamber.diameter);
-  read_value(table, "volume_cm3", 1e-6, Range::between(1e-6, 1e9), chamber.volume);
-  read_value(table, "outside_bar", kBar, kPressureBar, chamber.outside);
-  read_value(table, "spring_force_n", 1.0, force, spec.spring.force);
-  read_value(table, "spring_rate_n_m", 1.0, rate, spec.spring.rate);
-  read_oil(table, chamber.oil);
-  read_leak(table, chamber.leak);
-  read_supply(table, spec.supply);
-  if (const auto valve = table.find_table("check_valve")) read_check_valve(*valve, chamber.valve);
-  if (const auto relief = table.find_table("relief")) {
-    chamber.relief.opening = relief->number("opening_bar", kPressureBar) * kBar;
-    chamber.relief.gradient =
-        relief->number("gradient_ml_s_bar", Range::between(1e-9, 1e9)) * 1e-6 / kBar;
-  }
-  chamber.dry = table.flag_or("dry", false);
-  if (chamber.dry) {
-    chamber.oil = dry_air(chamber.oil.polytropic);
-    spec.supply = {chamber.outside, {}, "", Spline::Kind::kLinear};
-  }
-  if (!(chamber.volume + chamber.area() * spec.travel > 0.0))
-    table.fail("start_travel_mm", fmt::format("found {:g}, expected one that leaves a volume: "
-                                              "travel 0 has {:g} cm3",
-                                              spec.travel / kMilli, 1e6 * chamber.volume));
-  read_stops(table, spec);
+HydraulicSpec tensioner_defaults() {
+  HydraulicSpec spec;
+  spec.kind = "tensioner";
+  return spec;
 }
 
-HydraulicSpec read_hydraulic(const Config& table, HydraulicSpec spec) {
-  spec.name = read_name(table);
-  spec.where = table.where();
-  spec.a = read_point(table, "a");
-  spec.b = read_point(table, "b");
-  spec.axis = read_direction(table, "axis");
-  spec.model = read_model(table);
-  read_hydraulic_sizes(table, spec);
+HydraulicSpec train_adjuster_defaults() {
+  HydraulicSpec spec = lash_adjuster_defaults();
+  spec.stops.ends = {-2e-3, 2e-3};
   return spec;
+}
+
+void add_plunger(Keys<HydraulicSpec>& key, HydraulicSpec& spec) {
+  key.where(spec.where);
+  name_row(key, spec.name).required();
+  key.table("a", spec.a, point_keys(), "point of the housing").required();
+  key.table("b", spec.b, point_keys(), "point of the plunger").required();
+  key.direction("axis", spec.axis, "from the housing to the plunger, at the start").required();
+  key.choice("model", spec.model,
+             {{"hydraulic", HydraulicModel::kHydraulic},
+              {"constant_pressure", HydraulicModel::kConstantPressure},
+              {"constant_force", HydraulicModel::kConstantForce}},
+             "of the oil: its content, the supply's pressure, or pressure and spring as at the "
+             "start");
+  key.number("start_travel_mm", spec.travel, Range::between(-1e4, 1e4),
+             "travel of the plunger at the start");
+  add_sizes(key, spec);
+}
+
+}  // namespace
+
+const Keys<HydraulicSpec>& tensioner_keys() {
+  static const Keys<HydraulicSpec> keys(
+      "tensioner", "a plunger on an oil chamber with leak gap and check valve, and its spring",
+      add_plunger, tensioner_defaults());
+  return keys;
+}
+
+const Keys<HydraulicSpec>& lash_adjuster_keys() {
+  static const Keys<HydraulicSpec> keys(
+      "lash_adjuster", "the same with the sizes of a valve train's hydraulic lash adjuster",
+      add_plunger, lash_adjuster_defaults());
+  return keys;
+}
+
+const Keys<HydraulicSpec>& train_adjuster_keys() {
+  static const Keys<HydraulicSpec> keys("lash_adjuster", "sizes of the lash adjuster of a valve",
+                                        add_sizes, train_adjuster_defaults());
+  return keys;
 }
 
 }  // namespace clatter::dynamics

@@ -2,9 +2,11 @@
 #include "dynamics/scene/registry.hpp"
 
 #include "dynamics/chain/chain_component.hpp"
+#include "dynamics/component/block_table.hpp"
 #include "dynamics/component/body_component.hpp"
 #include "dynamics/component/bushing_component.hpp"
 #include "dynamics/component/drive_component.hpp"
+#include "dynamics/component/engine_table.hpp"
 #include "dynamics/component/gravity_component.hpp"
 #include "dynamics/component/load_component.hpp"
 #include "dynamics/component/mount_component.hpp"
@@ -12,8 +14,12 @@
 #include "dynamics/component/spring_component.hpp"
 #include "dynamics/component/stop_component.hpp"
 #include "dynamics/crank/crank_component.hpp"
+#include "dynamics/cylinder/contact_table.hpp"
 #include "dynamics/cylinder/cylinder_component.hpp"
+#include "dynamics/cylinder/cylinder_keys.hpp"
+#include "dynamics/cylinder/rod_table.hpp"
 #include "dynamics/hydraulic/hydraulic_component.hpp"
+#include "dynamics/scene/time_table.hpp"
 #include "dynamics/shaft/cam_torque_component.hpp"
 #include "dynamics/shaft/shaft_component.hpp"
 #include "dynamics/shaft/torque_component.hpp"
@@ -24,68 +30,93 @@
 namespace clatter::dynamics {
 namespace {
 
-/// "body" of "[[body]]".
-std::string key_of(const std::string& table) {
-  const size_t brackets = table.find_first_not_of('[');
-  return table.substr(brackets, table.size() - 2 * brackets);
+/// Keys of the scene itself.
+struct SceneHead {
+  std::filesystem::path base;
+  std::string title;
+  GravitySpec gravity;
+};
+
+const keys::Keys<SceneHead>& scene_head_keys() {
+  static const keys::Keys<SceneHead> keys("run.toml", "a scene", [](auto& key, SceneHead& head) {
+    key.path("base", head.base, "another run.toml, which has the keys that this one lacks");
+    key.text("title", head.title, "in the run file and reports; the name of the file without it");
+    key.part(head.gravity, gravity_keys());
+  });
+  return keys;
+}
+
+/// A kind of one table, whose meaning is the summary.
+template <class S>
+ComponentKind kind_of(const char* form, const keys::Keys<S>& keys,
+                      ComponentList (*read)(const Config& root)) {
+  return {{{form, &keys.table()}}, keys.table().meaning(), read};
+}
+
+keys::Table make_scene_table() {
+  keys::Table table = scene_head_keys().table();
+  const auto add = [&](const ComponentKind::Entry& entry) {
+    if (entry.keys != nullptr)
+      table.add(entry.name(), entry.form[1] == '[' ? keys::Type::kTables : keys::Type::kTable,
+                *entry.keys);
+  };
+  add({"[time]", &time_keys().table()});
+  add({"[accuracy]", &accuracy_keys().table()});
+  for (const ComponentKind& kind : component_kinds())
+    for (const ComponentKind::Entry& entry : kind.tables) add(entry);
+  add({"[[recorded_force]]", &recorded_force_keys().table()});
+  return table;
 }
 
 }  // namespace
 
+std::string ComponentKind::Entry::name() const {
+  const size_t brackets = form.find_first_not_of('[');
+  return form.substr(brackets, form.size() - 2 * brackets);
+}
+
 const std::vector<ComponentKind>& component_kinds() {
   static const std::vector<ComponentKind> kinds{
-      {{"[engine]", "[rod]", "[piston]", "[gas]", "[contact]", "[small_end]", "[big_end]",
-        "[pin_guide]", "[[cylinder]]"},
+      {{{"[engine]", &engine_keys().table()},
+        {"[rod]", &rod_keys().table()},
+        {"[piston]", &piston_keys().table()},
+        {"[gas]", &gas_keys().table()},
+        {"[contact]", &contact_keys().table()},
+        {"[small_end]", &joint_table()},
+        {"[big_end]", &joint_table()},
+        {"[pin_guide]", &guide_keys().table()},
+        {"[[cylinder]]", &cylinder_table()}},
        "slider-crank with piston, rod, joints, guide, skirt in its liner, gas",
        read_cylinders},
-      {{"[crank]"},
-       "the crankshaft as a body in main bearings, its rotation prescribed or free",
-       read_crank},
-      {{"[block]"}, "the engine block, a reduced part; rigid: the ground", read_block},
-      {{"[[body]]"},
-       "a reduced part whose frame is at rest, moves in space, or turns with a drive",
-       read_bodies},
-      {{"[[rigid_body]]"},
-       "a rigid body with large motion, in a plane or in space",
-       read_rigid_bodies},
-      {{"[[shaft]]"}, "an elastic shaft with discs in journal bearings: camshafts", read_shafts},
-      {{"[[drive]]"}, "a shaft that turns as prescribed", read_drives},
-      {{"[[chain]]"},
-       "a chain of links that runs over sprockets and guides, closed and set in equilibrium",
-       read_chains},
-      {{"[[mount]]"},
-       "springs and dampers between nodes of a reduced part and the ground",
-       read_mounts},
-      {{"[[bushing]]"}, "a joint of two points with the elasticity of its bearing", read_bushings},
-      {{"[[spring]]"}, "a spring and damper along the line between two points", read_springs},
-      {{"[[tensioner]]"},
-       "a plunger on an oil chamber with leak gap and check valve, and its spring",
-       read_tensioners},
-      {{"[[lash_adjuster]]"},
-       "the same with the sizes of a valve train's hydraulic lash adjuster",
-       read_lash_adjusters},
-      {{"[[valve]]"},
-       "valves of a camshaft: seat, spring, finger follower, lash adjuster, or their torque",
-       read_valves},
-      {{"[[follower]]"}, "a roller finger follower between a cam and a valve", read_followers},
-      {{"[[valve_spring]]"},
-       "a coil spring as masses between springs, whose coils may touch",
-       read_valve_springs},
-      {{"[[torque]]"}, "a torque over the angle of the body on which it acts", read_torques},
-      {{"[[cam_torque]]"}, "the torque of valves on their cams, quasi-static", read_cam_torques},
-      {{"[[stop]]"}, "contact of a point with a plane, rigid by impacts or compliant", read_stops},
-      {{"gravity_m_s2"}, "the weight of all bodies, along -z", read_gravity},
-      {{"[[load]]"}, "a known force over time or crank angle", read_loads}};
+      {{{"[crank]", &crank_table()}}, crank_table().meaning(), read_crank},
+      kind_of("[block]", block_keys(), read_block),
+      kind_of("[[body]]", moving_body_keys(), read_bodies),
+      kind_of("[[rigid_body]]", rigid_body_keys(), read_rigid_bodies),
+      kind_of("[[shaft]]", shaft_keys(), read_shafts),
+      kind_of("[[drive]]", drive_keys(), read_drives),
+      {{{"[[chain]]", &chain_table()}}, chain_table().meaning(), read_chains},
+      kind_of("[[mount]]", mount_keys(), read_mounts),
+      kind_of("[[bushing]]", bushing_keys(), read_bushings),
+      kind_of("[[spring]]", spring_keys(), read_springs),
+      kind_of("[[tensioner]]", tensioner_keys(), read_tensioners),
+      kind_of("[[lash_adjuster]]", lash_adjuster_keys(), read_lash_adjusters),
+      kind_of("[[valve]]", valve_keys(), read_valves),
+      kind_of("[[follower]]", follower_keys(), read_followers),
+      kind_of("[[valve_spring]]", valve_spring_keys(), read_valve_springs),
+      kind_of("[[torque]]", torque_keys(), read_torques),
+      kind_of("[[cam_torque]]", cam_torque_keys(), read_cam_torques),
+      kind_of("[[stop]]", stop_keys(), read_stops),
+      {{{"gravity_m_s2"}}, gravity_keys().table().meaning(), read_gravity},
+      kind_of("[[load]]", load_keys(), read_loads)};
   return kinds;
 }
 
-void check_known(const Config& root) {
-  for (const char* key : {"title", "time", "accuracy", "recorded_force"})
-    static_cast<void>(root.has(key));
-  for (const ComponentKind& kind : component_kinds())
-    for (const std::string& table : kind.tables) static_cast<void>(root.has(key_of(table)));
-  root.finish_table();
+const keys::Table& scene_table() {
+  static const keys::Table table = make_scene_table();
+  return table;
 }
+
+void check_known(const Config& root) { scene_table().check_known(root); }
 
 ComponentList read_components(const Config& root) {
   ComponentList components;

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <string>
 
 #include "dynamics/component/component_keys.hpp"
 #include "dynamics/component/drive_component.hpp"
+#include "dynamics/component/engine_table.hpp"
 #include "dynamics/scene/registry.hpp"
 #include "dynamics/scene/time_table.hpp"
 
@@ -20,11 +20,11 @@ namespace {
 constexpr double kLeastSpeed = 0.01 * std::numbers::pi / 30.0;  // of a clock [rad/s]
 
 /// The clock of the drive that [time] names: engine cycles without an [engine].
-CrankClock read_drive_clock(const Config& root, const Config& time) {
-  const double speed = std::abs(speed_of_drive(root, time, "cycle_of"));
+CrankClock read_drive_clock(const Config& root, const Config& time, const std::string& drive) {
+  const double speed = std::abs(speed_of_drive(root, time, "cycle_of", drive));
   if (!(speed >= kLeastSpeed))
     time.fail("cycle_of", fmt::format("found \"{}\" with {:g} rpm, expected a drive that turns",
-                                      time.text("cycle_of"), speed * 30.0 / std::numbers::pi));
+                                      drive, speed * 30.0 / std::numbers::pi));
   return {speed};
 }
 
@@ -32,18 +32,19 @@ std::optional<CrankClock> read_clock(const Config& root) {
   const auto engine = root.find_table("engine");
   if (const auto time = root.find_table("time"); time && time->has("cycle_of")) {
     if (engine)
-      time->fail("cycle_of", "found with [engine], whose crank is the clock, expected one of both");
-    return read_drive_clock(root, *time);
+      time->fail("cycle_of",
+                 "cycle_of and [engine] exclude each other: the engine's crank defines the cycle");
+    return read_drive_clock(root, *time, time_keys().read(*time).cycle_of);
   }
   if (!engine) return std::nullopt;
-  return read_crank_clock(*engine);
+  return engine_keys().read(*engine).clock;
 }
 
 void check_engine(const Config& root) {
   for (const char* key : {"piston", "block", "gas", "contact", "rod", "small_end", "big_end",
                           "pin_guide", "cylinder", "crank"}) {
     if (root.has(key) && !root.has("engine"))
-      root.fail(key, "found without [engine], expected [engine] with speed and stroke");
+      root.fail(key, "needs [engine], with speed and stroke");
   }
   if (!root.has("engine") && !root.has("body") && !root.has("rigid_body") && !root.has("shaft") &&
       !root.has("valve")) {
@@ -51,28 +52,6 @@ void check_engine(const Config& root) {
         "body",
         "found no body, expected [engine] with [piston], or [[body]], [[rigid_body]], [[valve]], "
         "[[shaft]]");
-  }
-}
-
-/// Histories, energies and states of elements are found by name, so each is given once (hard case
-/// S3).
-void check_names(const Config& root) {
-  for (const char* kind : {"bushing", "spring", "stop", "torque", "cam_torque", "tensioner",
-                           "lash_adjuster", "follower", "valve_spring"}) {
-    if (!root.has(kind)) continue;
-    std::map<std::string, std::string> found;  // as in the names of histories, and as given
-    size_t number = 0;
-    for (const Config& table : root.tables(kind)) {
-      const std::string given = table.has("name") ? read_name(table) : std::to_string(number + 1);
-      ++number;
-      std::string name = given;
-      std::replace(name.begin(), name.end(), ' ', '_');
-      const auto [first, is_new] = found.emplace(name, given);
-      if (!is_new)
-        table.fail("name", fmt::format("found \"{}\" after a {} \"{}\", expected each name once "
-                                       "(_ and blank are the same)",
-                                       given, kind, first->second));
-    }
   }
 }
 
@@ -93,17 +72,12 @@ void list_inputs(const Config& root, Scene& scene) {
 
 std::vector<ForceRecordSpec> read_recorded_forces(const Config& root) {
   std::vector<ForceRecordSpec> forces;
-  if (!root.has("recorded_force")) return forces;
   for (const Config& table : root.tables("recorded_force")) {
-    ForceRecordSpec spec{table.text("name"), table.text("body"), table.texts("of"),
-                         table.where("name")};
+    ForceRecordSpec spec = recorded_force_keys().read(table);
     for (const ForceRecordSpec& other : forces)
       if (other.name == spec.name && other.body == spec.body)
         table.fail("name", fmt::format("found a second \"{}\" of {}, expected each name once",
                                        spec.name, spec.body));
-    if (spec.name.empty() || spec.name.find('/') != std::string::npos)
-      table.fail("name", fmt::format("found \"{}\", expected a name without /", spec.name));
-    if (spec.of.empty()) table.fail("of", "found none, expected names of elements or loads");
     forces.push_back(std::move(spec));
   }
   return forces;
@@ -122,6 +96,19 @@ void check_repeats(const Config& root, const Scene& scene) {
 
 }  // namespace
 
+const Keys<ForceRecordSpec>& recorded_force_keys() {
+  static const Keys<ForceRecordSpec> keys(
+      "recorded_force", "forces on a body whose effect is wanted alone",
+      [](auto& key, ForceRecordSpec& force) {
+        key.where(force.where, "name");
+        name_row(key, force.name).required();
+        key.text("body", force.body, "the body on which they act").required();
+        key.texts("of", force.of, "names of elements and loads, as the energy balance has them")
+            .required();
+      });
+  return keys;
+}
+
 Scene read_scene(const std::filesystem::path& path) {
   return read_scene(Config::load_with_base(path), path);
 }
@@ -129,15 +116,14 @@ Scene read_scene(const std::filesystem::path& path) {
 Scene read_scene(const Config& root, const std::filesystem::path& path) {
   Scene scene;
   scene.file = path;
-  scene.title = root.text_or("title", path.stem().stem().string());
   check_known(root);
+  scene.title = root.text_or("title", path.stem().stem().string());
   check_engine(root);
-  check_names(root);
   scene.clock = read_clock(root);
-  read_time(root, scene);
+  const TimeTable time = read_time(root, scene);
   scene.components = read_components(root);
   scene.forces = read_recorded_forces(root);
-  read_steps(root, scene);
+  read_steps(root, time, scene);
   check_repeats(root, scene);
   root.finish();
   scene.resolved = root.resolved();

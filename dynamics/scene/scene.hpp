@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/config.hpp"
+#include "core/keys/keys.hpp"
 #include "dynamics/component/component.hpp"
 #include "dynamics/component/run_time.hpp"
 #include "dynamics/given/crank_clock.hpp"
@@ -20,6 +20,8 @@ struct ForceRecordSpec {
   std::vector<std::string> of;  // elements and loads, as the energy balance names them
   std::string where;            // "file:line", for messages
 };
+
+const keys::Keys<ForceRecordSpec>& recorded_force_keys();
 
 struct Scene {
   std::filesystem::path file;

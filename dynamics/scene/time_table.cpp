@@ -16,14 +16,14 @@ constexpr double kMostSamples = 1e9;       // of a span: 8 GB for one column of 
 constexpr double kTimeResolution = 1e-15;  // of a span: steps below do not advance a double
 constexpr double kRounding = 1e-9;         // of a bound that is converted between units
 
-/// A number, given or by default, that another setting bounds.
-double number_within(const Config& table, const char* key, double fallback, double min,
-                     double max) {
-  const double value = table.number_or(key, fallback, Range::positive());
+/// A number, given or by default, that another setting bounds. `given` [s], all others [us].
+double within(const Config& table, const char* key, const std::optional<double>& given,
+              double fallback, double min, double max) {
+  const double value = given ? *given / kMicro : fallback;
   if (!(value >= min * (1.0 - kRounding) && value <= max * (1.0 + kRounding)))
     table.fail(key, fmt::format("found {:g}{}, expected at least {:.3g} and at most {:.3g}", value,
-                                table.has(key) ? "" : " (default)", min, max));
-  return value;
+                                given ? "" : " (default)", min, max));
+  return given.value_or(fallback * kMicro);
 }
 
 /// The span that is recorded: a cycle, or the entire run.
@@ -31,102 +31,156 @@ double recorded_span(const Scene& scene) {
   return scene.clock ? scene.clock->cycle() : scene.time.end - scene.time.begin;
 }
 
-void read_accuracy(const Config& table, Accuracy& accuracy) {
-  accuracy.tolerance = table.number_or("tolerance", accuracy.tolerance, Range::between(1e-12, 1.0));
-  accuracy.displacement_scale =
-      table.number_or("displacement_um", accuracy.displacement_scale / kMicro,
-                      kDisplacementScaleUm) *
-      kMicro;
-  accuracy.velocity_scale =
-      table.number_or("velocity_m_s", accuracy.velocity_scale, kVelocityScale);
-  accuracy.force_scale =
-      table.has("force_n") ? table.number("force_n", Range::between(1e-9, 1e12)) : 0.0;
-  accuracy.acceleration_scale = table.has("acceleration_m_s2")
-                                    ? table.number("acceleration_m_s2", Range::between(1e-9, 1e12))
-                                    : 0.0;
-  accuracy.arm =
-      table.number_or("arm_mm", accuracy.arm / kMilli, Range::between(1e-3, 1e5)) * kMilli;
-}
-
-std::filesystem::path read_start(const Config& time) {
-  const std::filesystem::path path = time.path("start_from");
-  if (!std::filesystem::exists(path))
-    time.fail("start_from", fmt::format("found \"{}\", which does not exist, expected a run file",
-                                        path.string()));
-  return path;
-}
-
-void read_output(const Config& time, Scene& scene) {
+void read_output(const Config& time, TimeTable& table, Scene& scene) {
   const double span_us = recorded_span(scene) / kMicro;
-  scene.time.output_step = number_within(time, "output_step_us", std::min(20.0, span_us),
-                                         span_us / kMostSamples, span_us) *
-                           kMicro;
+  scene.time.output_step = within(time, "output_step_us", table.output_step,
+                                  std::min(20.0, span_us), span_us / kMostSamples, span_us);
+  table.output_step = scene.time.output_step;
+  if (scene.clock) scene.film_every = table.film_every / scene.clock->speed;
   scene.time.output_step_where = time.where("output_step_us");
-  if (!scene.clock) return;
-  const double film_deg = time.number_or("film_every_deg", 10.0, Range::between(0.0, 720.0));
-  if (film_deg > 0.0 && film_deg < 0.01)
-    time.fail("film_every_deg",
-              fmt::format("found {:g}, expected 0 (no film fields) or at least 0.01", film_deg));
-  scene.film_every = film_deg * kDegree / scene.clock->speed;
   scene.time.film_every_where = time.where("film_every_deg");
 }
 
-}  // namespace
-
-void read_time(const Config& root, Scene& scene) {
-  const Config time = root.table("time");
-  if (!scene.clock) {
-    scene.time.end = time.number("end_s", Range::between(1e-9, 1e9));
-    read_output(time, scene);
-    return;
-  }
-  if (time.has("settle_to"))
-    scene.time.settle = time.number("settle_to", Range::between(1e-9, 1.0));
-  const bool settles = scene.time.settle > 0.0;
-  scene.time.cycles = static_cast<int>(
-      time.integer_or("cycles", settles ? 30 : 2, Range::between(settles ? 2.0 : 1.0, 1000.0)));
-  if (time.has("start_from")) scene.time.start = read_start(time);
+/// Cycles of the clock.
+void read_cycles(const Config& root, const Config& time, TimeTable& table, Scene& scene) {
+  const bool settles = table.settle > 0.0;
+  table.cycles = table.cycles.value_or(settles ? 30 : 2);
+  if (settles && *table.cycles < 2)
+    time.fail("cycles", "found 1 with settle_to, expected at least 2");
   // An engine starts at its ideal places and loads grow from nothing; other scenes start in the
   // state that they are given.
-  const double rest_deg = scene.time.start.empty() && root.has("engine") ? 60.0 : 0.0;
-  const double ramp_deg = time.number_or("ramp_deg", rest_deg, Range::between(0.0, 360.0));
+  const double rest = table.start.empty() && root.has("engine") ? 60.0 * kDegree : 0.0;
+  table.ramp = table.ramp.value_or(rest);
+  scene.time.settle = table.settle;
+  scene.time.cycles = *table.cycles;
+  scene.time.start = table.start;
   const double omega = scene.clock->speed;
   // While it settles each cycle has the same times; what repeats each cycle allows that.
   const int before = settles ? 0 : scene.time.cycles - 1;
   scene.time.begin = -(2.0 + 4.0 * before) * std::numbers::pi / omega;
   scene.time.end = 2.0 * std::numbers::pi / omega;
-  scene.time.ramp = ramp_deg * kDegree / omega;
-  read_output(time, scene);
+  scene.time.ramp = *table.ramp / omega;
 }
 
-void read_steps(const Config& root, Scene& scene) {
-  const double span = recorded_span(scene), whole = scene.time.end - scene.time.begin;
-  const double largest_us = (scene.clock ? span / 720.0 : span / 100.0) / kMicro;
+}  // namespace
+
+const Keys<TimeTable>& time_keys() {
+  static const Keys<TimeTable> keys(
+      "time", "span, cycles, output and steps of a run", [](auto& key, TimeTable& time) {
+        key.number("end_s", time.end, Range::between(1e-9, 1e9),
+                   "end of a run without an engine or cycle_of, which begins at 0")
+            .excludes("cycle_of", "it has cycles");
+        key.text(
+            "cycle_of", time.cycle_of,
+            "the [[drive]] with speed_rpm whose cycles of 720 deg a run without an engine has");
+        key.integer(
+            "cycles", time.cycles, Range::between(1.0, 1000.0),
+            "cycles, of which the last is reported: 2 without it, at most 30 with settle_to");
+        key.number("settle_to", time.settle, Range::between(1e-9, 1.0),
+                   "further cycles, until the velocities of each body differ by no more than this "
+                   "part from those of the cycle before");
+        key.path("start_from", time.start, "run file at whose end this run starts");
+        key.number("ramp_deg", time.ramp, Range::between(0.0, 360.0),
+                   "loads grow from zero over this angle at the start: 60 of an engine, 0 with "
+                   "start_from and without an engine");
+        key.number("output_step_us", time.output_step, Range::positive(),
+                   "between rows of the run file: 20 without it");
+        key.number("film_every_deg", time.film_every, Range::between(0.0, 720.0),
+                   "between fields of films; 0: none");
+        key.choice("method", time.method,
+                   {{"sdirk2", &sdirk2()},
+                    {"tr-bdf2", &tr_bdf2()},
+                    {"predictor-corrector", &predictor_corrector()}},
+                   "of integration: sdirk2 with an oil film, else tr-bdf2 without it");
+        key.flag("exact_modes", time.exact_modes,
+                 "free modes move exactly: true of methods of two stages without it");
+        key.number("largest_step_us", time.largest_step, Range::positive(),
+                   "largest step: 1 deg of the crank, or 1 % of the span without it");
+        key.number("smallest_step_us", time.smallest_step, Range::positive(),
+                   "step below which a run ends with an error: 1e-4 without it");
+        key.check([](const Config& table, TimeTable& found) {
+          const double every = found.film_every / kDegree;
+          if (every > 0.0 && every < 0.01)
+            table.fail(
+                "film_every_deg",
+                fmt::format("found {:g}, expected 0 (no film fields) or at least 0.01", every));
+          if (!found.start.empty() && !std::filesystem::exists(found.start))
+            table.fail("start_from",
+                       fmt::format("found \"{}\", which does not exist, expected a run file",
+                                   found.start.string()));
+        });
+      });
+  return keys;
+}
+
+const Keys<Accuracy>& accuracy_keys() {
+  static const Keys<Accuracy> keys(
+      "accuracy", "what the error test of the steps refers to", [](auto& key, Accuracy& accuracy) {
+        const Range any = Range::between(1e-9, 1e12);
+        key.number("tolerance", accuracy.tolerance, Range::between(1e-12, 1.0),
+                   "error of a step over the scales below");
+        key.number("displacement_um", accuracy.displacement_scale, kDisplacementScaleUm,
+                   "scale of displacements at interfaces, and so of gaps");
+        key.number("velocity_m_s", accuracy.velocity_scale, kVelocityScale,
+                   "scale of the velocities of bodies as rigid ones");
+        key.number("arm_mm", accuracy.arm, Range::between(1e-3, 1e5),
+                   "arm that makes displacements of rotations");
+        key.number("force_n", accuracy.force_scale, any,
+                   "scale of the forces of elements, which are not tested without it");
+        key.number("acceleration_m_s2", accuracy.acceleration_scale, any,
+                   "scale of the accelerations of bodies, which are not tested without it");
+      });
+  return keys;
+}
+
+TimeTable read_time(const Config& root, Scene& scene) {
   const Config time = root.table("time");
-  const std::string method =
-      std::any_of(scene.components.begin(), scene.components.end(),
-                  [](const auto& component) { return component->has_film(); })
-          ? time.choice("method", {"sdirk2", "tr-bdf2", "predictor-corrector"})
-          : time.choice("method", {"tr-bdf2", "sdirk2", "predictor-corrector"});
-  for (const Tableau* known : {&sdirk2(), &tr_bdf2(), &predictor_corrector()})
-    if (known->name == method) scene.steps.method = known;
-  scene.steps.exact_modes = time.flag_or("exact_modes", scene.steps.method->stages == 2);
-  if (scene.steps.exact_modes && scene.steps.method->stages != 2)
+  TimeTable table = time_keys().read(time);
+  if (scene.clock) {
+    if (table.end)
+      time.fail("end_s", "end_s and [engine] exclude each other: a run with an engine has cycles");
+    read_cycles(root, time, table, scene);
+  } else {
+    for (const char* key : {"cycles", "settle_to", "start_from", "ramp_deg", "film_every_deg"})
+      if (time.has(key)) time.fail(key, "needs [engine], or cycle_of: a run without has no cycles");
+    if (!table.end) time.fail("end_s", "found nothing, expected a number above 0");
+    scene.time.end = *table.end;
+  }
+  read_output(time, table, scene);
+  return table;
+}
+
+void read_steps(const Config& root, TimeTable table, Scene& scene) {
+  const Config time = root.table("time");
+  const double span = recorded_span(scene), whole = scene.time.end - scene.time.begin;
+  const bool has_film = std::any_of(scene.components.begin(), scene.components.end(),
+                                    [](const auto& component) { return component->has_film(); });
+  StepOptions& steps = scene.steps;
+  steps.method = table.method.value_or(has_film ? &sdirk2() : &tr_bdf2());
+  steps.exact_modes = table.exact_modes.value_or(steps.method->stages == 2);
+  if (steps.exact_modes && steps.method->stages != 2)
     time.fail("exact_modes", fmt::format("found true with method \"{}\", expected one of two "
                                          "stages, \"sdirk2\" or \"tr-bdf2\"",
-                                         method));
-  const auto step = [&](const char* key, double fallback) {
-    const double resolved = kTimeResolution * whole / kMicro;
-    return number_within(time, key, fallback, resolved, span / kMicro) * kMicro;
-  };
-  scene.steps.largest = step("largest_step_us", largest_us);
-  scene.steps.smallest = step("smallest_step_us", std::min(1e-4, 1e-3 * largest_us));
-  if (!(scene.steps.smallest < scene.steps.largest))
+                                         steps.method->name));
+  const double largest_us = (scene.clock ? span / 720.0 : span / 100.0) / kMicro;
+  const double resolved_us = kTimeResolution * whole / kMicro, span_us = span / kMicro;
+  steps.largest =
+      within(time, "largest_step_us", table.largest_step, largest_us, resolved_us, span_us);
+  steps.smallest = within(time, "smallest_step_us", table.smallest_step,
+                          std::min(1e-4, 1e-3 * largest_us), resolved_us, span_us);
+  if (!(steps.smallest < steps.largest))
     time.fail("smallest_step_us",
               fmt::format("found {:g}, expected less than largest_step_us, {:g}",
-                          scene.steps.smallest / kMicro, scene.steps.largest / kMicro));
-  scene.steps.first = std::min(1e-7, 1e-3 * scene.steps.largest);
-  if (const auto table = root.find_table("accuracy")) read_accuracy(*table, scene.steps.accuracy);
+                          steps.smallest / kMicro, steps.largest / kMicro));
+  steps.first = std::min(1e-7, 1e-3 * steps.largest);
+  if (const auto accuracy = root.find_table("accuracy"))
+    accuracy_keys().read(*accuracy, steps.accuracy);
+  // Once more, so that the resolved scene has the defaults that follow from others.
+  table.method = steps.method;
+  table.exact_modes = steps.exact_modes;
+  table.largest_step = steps.largest;
+  table.smallest_step = steps.smallest;
+  time_keys().read(time, table);
 }
 
 }  // namespace clatter::dynamics

@@ -1,51 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/shaft/cam_torque_component.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
-#include "core/base/units.hpp"
-#include "dynamics/component/component_keys.hpp"
 #include "dynamics/shaft/shaft_catalogue.hpp"
 
 namespace clatter::dynamics {
-namespace {
 
-std::vector<double> read_lobes(const Config& table) {
-  std::vector<double> lobes = table.numbers("lobes_deg");
-  if (lobes.empty()) table.fail("lobes_deg", "found no lobe, expected the angle of each");
-  for (double& lobe : lobes) {
-    if (!(std::abs(lobe) <= 1e6))
-      table.fail("lobes_deg", fmt::format("found {:g}, expected at most 1e6 in size", lobe));
-    lobe *= kDegree;
-  }
-  return lobes;
+CamLaw make_cam_law(const CamLawSpec& spec) {
+  if (spec.kind == CamLawSpec::Kind::kPolynomial)
+    return CamLaw::polynomial(spec.lift, spec.half_angle);
+  return read_cam_table(spec.file, spec.column, spec.degree);
 }
 
-CamTorqueSpec read_cam_torque(const Config& table, size_t number) {
-  std::filesystem::path file;
-  CamTrain train{read_cam_law(table, file),
-                 read_lobes(table),
-                 static_cast<double>(table.integer_or("valves", 1, Range::between(1, 64))),
-                 table.number("spring_force_n", Range::between(1e-6, 1e9)),
-                 table.number_or("spring_stiffness_n_m", 0.0, Range::between(0.0, 1e12)),
-                 table.number_or("mass_kg", 0.0, Range::between(0.0, 1e6))};
-  return {"cam_torque " + (table.has("name") ? read_name(table) : fmt::format("{}", number)),
-          read_turn_bodies(table), std::move(train), file};
-}
-
-}  // namespace
-
-CamLaw read_cam_law(const Config& table, std::filesystem::path& file) {
-  if (table.choice("law", {"polynomial", "table"}) == "polynomial") {
-    const double lift = table.number("lift_mm", Range::between(1e-6, 1e4)) * kMilli;
-    return CamLaw::polynomial(
-        lift, table.number("half_angle_deg", Range::between(1e-3, 180.0)) * kDegree);
-  }
-  file = table.path("table");
-  const int degree = table.choice("spline", {"quintic", "cubic"}) == "cubic" ? 3 : 5;
-  return read_cam_table(file, table.text_or("column", ""), degree);
+const Keys<CamTorqueTable>& cam_torque_keys() {
+  using Kind = CamLawSpec::Kind;
+  static const Keys<CamTorqueTable> keys(
+      "cam_torque", "the torque of valves on their cams, quasi-static",
+      [](auto& key, CamTorqueTable& torque) {
+        name_row(key, torque.name);
+        turn_body_rows(key, torque.bodies);
+        key.choice("law", torque.law.kind,
+                   {{"polynomial", Kind::kPolynomial}, {"table", Kind::kTable}},
+                   "lift of the valve over the angle of the cam");
+        cam_law_rows(key, torque.law, "table");
+        key.numbers("lobes_deg", torque.lobes, kAngleDeg,
+                    "angle of the body at the law's angle 0, of each lobe")
+            .required();
+        key.integer("valves", torque.valves, Range::between(1.0, 64.0), "valves of a lobe");
+        key.number("spring_force_n", torque.force, Range::between(1e-6, 1e9),
+                   "of a valve's spring at lift 0")
+            .required();
+        key.number("spring_stiffness_n_m", torque.stiffness, Range::between(0.0, 1e12),
+                   "of a valve's spring");
+        key.number("mass_kg", torque.mass, Range::between(0.0, 1e6), "reduced to a valve");
+      });
+  return keys;
 }
 
 std::vector<std::filesystem::path> CamTorqueComponent::inputs() const {
@@ -72,8 +60,11 @@ void CamTorqueComponent::add_effects(const ModelBuilder&, EffectTable& effects) 
 
 ComponentList read_cam_torques(const Config& root) {
   std::vector<CamTorqueSpec> torques;
-  for (const Config& table : root.tables("cam_torque"))
-    torques.push_back(read_cam_torque(table, torques.size() + 1));
+  for (const CamTorqueTable& one : read_elements(root, "cam_torque", cam_torque_keys()))
+    torques.push_back({one.name, one.bodies,
+                       CamTrain{make_cam_law(one.law), one.lobes, static_cast<double>(one.valves),
+                                one.force, one.stiffness, one.mass},
+                       one.law.file});
   return {std::make_shared<CamTorqueComponent>(std::move(torques))};
 }
 

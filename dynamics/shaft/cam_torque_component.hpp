@@ -11,6 +11,42 @@
 
 namespace clatter::dynamics {
 
+/// A cam law as its keys say.
+struct CamLawSpec {
+  enum class Kind : char { kPolynomial, kTable, kRadius };
+  Kind kind = Kind::kPolynomial;
+  double lift = 0.0, half_angle = 0.0;  // of a polynomial [m], [rad]
+  std::filesystem::path file;           // of a table; empty: none
+  std::string column;
+  int degree = 5;  // of its spline
+};
+/// The keys of the laws; those of a table need one of the values `by_table` of the key "law".
+template <class S>
+void cam_law_rows(Keys<S>& key, CamLawSpec& law, const keys::Values& by_table) {
+  key.number("lift_mm", law.lift, Range::between(1e-6, 1e4), "full lift of a polynomial")
+      .of("law", "polynomial");
+  key.number("half_angle_deg", law.half_angle, Range::between(1e-3, 180.0),
+             "from full lift to the end of a polynomial, of the cam")
+      .of("law", "polynomial");
+  key.path("table", law.file, "CSV over the angle of the cam, one turn").of("law", by_table);
+  key.text("column", law.column, "column of the table; without it the second one").needs("table");
+  key.choice("spline", law.degree, {{"quintic", 5}, {"cubic", 3}}, "between the rows of the table")
+      .needs("table");
+}
+/// A polynomial, or a table of the lift.
+CamLaw make_cam_law(const CamLawSpec& spec);
+
+/// The keys of one [[cam_torque]].
+struct CamTorqueTable {
+  std::string name;
+  TurnBodies bodies;
+  CamLawSpec law;
+  std::vector<double> lobes;                        // [rad]
+  int valves = 1;                                   // of each
+  double force = 0.0, stiffness = 0.0, mass = 0.0;  // [N], [N/m], [kg]
+};
+const Keys<CamTorqueTable>& cam_torque_keys();
+
 /// One [[cam_torque]].
 struct CamTorqueSpec {
   std::string name;  // "cam_torque 1", or with its own name
@@ -35,9 +71,5 @@ class CamTorqueComponent : public Component {
 };
 
 ComponentList read_cam_torques(const Config& root);
-
-/// The cam law of a table: law = "polynomial" with lift_mm and half_angle_deg, or "table" with
-/// table, column and spline, whose path goes to `file`.
-CamLaw read_cam_law(const Config& table, std::filesystem::path& file);
 
 }  // namespace clatter::dynamics

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/config.hpp"
-#include "dynamics/component/model_builder.hpp"
+#include "dynamics/component/component_keys.hpp"
 #include "dynamics/shaft/disc_body.hpp"
 #include "dynamics/shaft/journal_bearing.hpp"
 #include "dynamics/shaft/shaft_axes.hpp"
@@ -21,14 +21,17 @@ struct ShaftDiscSpec {
   std::string name;
   double at = 0.0;  // along the axis [m]
   DiscInertia inertia;
+  std::optional<double> diametral;   // of it as given; else half of the polar one [kg m2]
   std::optional<TorsionLaw> phaser;  // it turns on the shaft
 };
 
 /// One [[shaft.bearing]].
 struct ShaftBearingSpec {
   std::string name;
-  double at = 0.0;                   // along the axis [m]
-  PointSpec on;                      // of the housing; without body: the ground
+  double at = 0.0;  // along the axis [m]
+  PointSpec on;     // of the housing; without body: the ground
+  enum class Model : char { kButenschoen, kMoes, kLinear };
+  Model model = Model::kButenschoen;
   std::optional<BearingModel> film;  // else linear
   BearingSize size;
   double stiffness = 0.0, damping = 0.0;  // linear [N/m], [N s/m]
@@ -47,21 +50,40 @@ struct ShaftSpec {
   ShaftAxes axes;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // where `at` is 0 [m]
   ShaftModel model = ShaftModel::kFull;
-  std::optional<ShaftSections> sections;
+  std::vector<ShaftSection> pieces;
+  ShaftMaterial material;
+  std::optional<ShaftSections> sections;  // of both
   int slices = 0;  // of equal length, for stations between discs and bearings
   std::vector<ShaftDiscSpec> discs;
   std::vector<ShaftBearingSpec> bearings;
   DiscStart start;
+  std::string speed_of;  // the [[drive]] whose speed, times the ratio, is that at the start
+  double speed_ratio = 1.0;
   double loss_time = 0.0;                                 // damping over stiffness [s]
   double displacement_scale = 0.0, velocity_scale = 0.0;  // of the error test; 0: those of the run
   /// A point of the axis, in the scene's axes [m].
   Eigen::Vector3d point(double at) const { return centre + at * axes.unit(); }
 };
 
-/// diameter_mm, width_mm, clearance (relative) and viscosity_mpa_s of a bearing. InputError for a
-/// width over diameter outside of 0.12 to 1, where the impedances hold.
-BearingSize read_bearing_size(const Config& table);
+/// Rows diameter_mm, width_mm, clearance (relative) and viscosity_mpa_s of a bearing whose key
+/// "model" is one of `films`.
+template <class S>
+void bearing_size_rows(Keys<S>& key, BearingSize& size, const keys::Values& films) {
+  const Range millimetres = Range::between(1e-3, 1e5);
+  key.number("diameter_mm", size.diameter, millimetres, "diameter of the journal")
+      .of("model", films);
+  key.number("width_mm", size.width, millimetres, "width of the bearing").of("model", films);
+  key.number("clearance", size.clearance, Range::between(1e-6, 0.1),
+             "relative: of diameters, over the diameter")
+      .of("model", films);
+  key.number("viscosity_mpa_s", size.viscosity, Range::between(1e-4, 1e6),
+             "dynamic viscosity of the oil")
+      .of("model", films);
+}
+/// InputError for a width over diameter outside of 0.12 to 1, where the impedances hold.
+void check_bearing_width(const Config& table, const BearingSize& size);
 
+const Keys<ShaftSpec>& shaft_keys();
 /// Reads one [[shaft]] of the scene `root`, whose [[drive]] may give its speed. InputError for
 /// sections with gaps, discs and bearings beside the shaft or of the same name.
 ShaftSpec read_shaft(const Config& root, const Config& table);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <numbers>
-#include <set>
+#include <map>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -14,160 +13,181 @@
 namespace clatter::dynamics {
 namespace {
 
-constexpr double kRpm = std::numbers::pi / 30.0;  // [rad/s]
-const Range kPositionMm = Range::between(-1e6, 1e6), kDiameterMm = Range::between(1e-3, 1e5);
-const Range kStiffness = Range::between(0.0, 1e20), kDamping = Range::between(0.0, 1e15);
-const Range kMoment = Range::between(0.0, 1e12), kAngle = Range::between(-1e6, 1e6);
+const Range kDiameterMm = Range::between(1e-3, 1e5), kMoment = Range::between(0.0, 1e12);
 
-ShaftMaterial read_material(const Config& table) {
-  ShaftMaterial material;
-  material.youngs =
-      table.number_or("youngs_modulus_gpa", material.youngs * 1e-9, Range::between(1e-6, 1e4)) *
-      1e9;
-  material.shear =
-      table.number_or("shear_modulus_gpa", material.shear * 1e-9, Range::between(1e-6, 1e4)) * 1e9;
-  material.density = table.number_or("density_kg_m3", material.density, Range::between(1e-3, 1e5));
-  if (table.has("shear_factor"))
-    material.shear_factor = table.number("shear_factor", Range::between(0.1, 10.0));
+const Keys<ShaftSection>& section_keys() {
+  static const Keys<ShaftSection> keys(
+      "section", "a circular section along a part of the shaft",
+      [](auto& key, ShaftSection& section) {
+        key.number("from_mm", section.from, kPositionMm, "where it begins along the axis")
+            .required();
+        key.number("to_mm", section.to, kPositionMm, "where it ends").required();
+        key.number("diameter_mm", section.outer, kDiameterMm, "outer diameter").required();
+        key.number("inner_diameter_mm", section.inner, Range::between(0.0, kDiameterMm.max),
+                   "inner diameter; 0: solid");
+        key.check([](const Config& table, ShaftSection& found) {
+          if (!(found.to > found.from))
+            table.fail("to_mm", fmt::format("found {:g}, expected above from_mm, {:g}",
+                                            found.to / kMilli, found.from / kMilli));
+          if (!(found.inner < found.outer))
+            table.fail("inner_diameter_mm",
+                       fmt::format("found {:g}, expected below diameter_mm, {:g}",
+                                   found.inner / kMilli, found.outer / kMilli));
+        });
+      });
+  return keys;
+}
+
+const Keys<TorsionLaw>& phaser_keys() {
+  static const Keys<TorsionLaw> keys(
+      "phaser", "the disc turns on the shaft", [](auto& key, TorsionLaw& law) {
+        key.number("stiffness_n_m_rad", law.stiffness, kAnyStiffness, "of its end stops")
+            .required();
+        key.number("damping_n_m_s_rad", law.damping, kAnyDamping, "of its oil");
+        key.number("backlash_deg", law.backlash, Range::between(0.0, 360.0), "from stop to stop");
+      });
+  return keys;
+}
+
+const Keys<ShaftDiscSpec>& disc_keys() {
+  static const Keys<ShaftDiscSpec> keys(
+      "disc", "a rigid part on the shaft", [](auto& key, ShaftDiscSpec& disc) {
+        name_row(key, disc.name).required();
+        key.number("at_mm", disc.at, kPositionMm, "of its centre, along the axis").required();
+        key.number("mass_kg", disc.inertia.mass, Range::between(0.0, 1e9), "mass");
+        key.number("polar_kg_m2", disc.inertia.polar, kMoment, "moment of inertia about the axis");
+        key.number("diametral_kg_m2", disc.diametral, kMoment,
+                   "moment of inertia across the axis; half of polar_kg_m2 without it");
+        key.table("phaser", disc.phaser, phaser_keys());
+        key.check([](const Config& table, ShaftDiscSpec& found) {
+          found.inertia.diametral = found.diametral.value_or(0.5 * found.inertia.polar);
+          if (found.phaser && !(found.inertia.polar > 0.0))
+            table.fail("polar_kg_m2",
+                       "found 0, expected a moment of inertia of what the phaser turns");
+        });
+      });
+  return keys;
+}
+
+void check_shaft_bearing(const Config& table, ShaftBearingSpec& bearing) {
+  using Model = ShaftBearingSpec::Model;
+  if (bearing.model == Model::kLinear) return;
+  bearing.film = bearing.model == Model::kMoes ? BearingModel::kMoes : BearingModel::kButenschoen;
+  check_bearing_width(table, bearing.size);
+}
+
+const Keys<ShaftBearingSpec>& shaft_bearing_keys() {
+  using Model = ShaftBearingSpec::Model;
+  static const Keys<ShaftBearingSpec> keys(
+      "bearing", "a journal bearing of the shaft", [](auto& key, ShaftBearingSpec& bearing) {
+        name_row(key, bearing.name).required();
+        key.number("at_mm", bearing.at, kPositionMm, "of its middle, along the axis").required();
+        key.table("on", bearing.on, point_keys(), "the housing; without it the ground");
+        key.where(bearing.on.where, "on");
+        key.choice("model", bearing.model,
+                   {{"butenschoen", Model::kButenschoen},
+                    {"moes", Model::kMoes},
+                    {"linear", Model::kLinear}},
+                   "an oil film by one of two formulas, or a spring");
+        bearing_size_rows(key, bearing.size, {"butenschoen", "moes"});
+        key.number("stiffness_n_m", bearing.stiffness, kAnyStiffness, "of the spring")
+            .of("model", "linear");
+        key.number("damping_n_s_m", bearing.damping, kAnyDamping, "of the spring")
+            .needs("model", "linear");
+        key.number("thrust_stiffness_n_m", bearing.thrust.stiffness, kAnyStiffness,
+                   "along the axis");
+        key.number("thrust_damping_n_s_m", bearing.thrust.damping, kAnyDamping, "along the axis");
+        key.check(check_shaft_bearing);
+      });
+  return keys;
+}
+
+void make_sections(const Config& table, ShaftSpec& shaft) {
+  const ShaftMaterial& material = shaft.material;
   const double nu = material.youngs / (2.0 * material.shear) - 1.0;
   if (!(nu >= 0.0 && nu <= 0.5))
     table.fail("shear_modulus_gpa",
                fmt::format("found {:g} with Young's modulus {:g}, which is Poisson's ratio {:.3g}, "
                            "expected one from 0 to 0.5",
                            material.shear * 1e-9, material.youngs * 1e-9, nu));
-  return material;
+  shaft.sections.emplace(
+      with_context(table.where("section"), [&] { return ShaftSections(shaft.pieces, material); }));
 }
 
-ShaftSections read_sections(const Config& table) {
-  std::vector<ShaftSection> sections;
-  for (const Config& one : table.tables("section")) {
-    ShaftSection section;
-    section.from = one.number("from_mm", kPositionMm) * kMilli;
-    section.to = one.number("to_mm", kPositionMm) * kMilli;
-    section.outer = one.number("diameter_mm", kDiameterMm) * kMilli;
-    section.inner =
-        one.number_or("inner_diameter_mm", 0.0, Range::between(0.0, kDiameterMm.max)) * kMilli;
-    if (!(section.to > section.from))
-      one.fail("to_mm", fmt::format("found {:g}, expected above from_mm, {:g}", section.to / kMilli,
-                                    section.from / kMilli));
-    if (!(section.inner < section.outer))
-      one.fail("inner_diameter_mm", fmt::format("found {:g}, expected below diameter_mm, {:g}",
-                                                section.inner / kMilli, section.outer / kMilli));
-    sections.push_back(section);
-  }
-  if (sections.empty()) table.fail("section", "found none, expected [[shaft.section]]");
-  const ShaftMaterial material = read_material(table);
-  return with_context(table.where("section"),
-                      [&] { return ShaftSections(std::move(sections), material); });
-}
-
-double read_position(const Config& table, const ShaftSections& shaft) {
-  const double at = table.number("at_mm", kPositionMm) * kMilli;
-  if (!(at >= shaft.begin() && at <= shaft.end()))
-    table.fail("at_mm", fmt::format("found {:g}, expected on the shaft, {:g} to {:g}", at / kMilli,
-                                    shaft.begin() / kMilli, shaft.end() / kMilli));
-  return at;
-}
-
-ShaftDiscSpec read_disc(const Config& table, const ShaftSections& shaft) {
-  ShaftDiscSpec disc;
-  disc.name = read_name(table);
-  disc.at = read_position(table, shaft);
-  disc.inertia.mass = table.number_or("mass_kg", 0.0, Range::between(0.0, 1e9));
-  disc.inertia.polar = table.number_or("polar_kg_m2", 0.0, kMoment);
-  disc.inertia.diametral = table.number_or("diametral_kg_m2", 0.5 * disc.inertia.polar, kMoment);
-  if (const auto phaser = table.find_table("phaser")) {
-    if (!(disc.inertia.polar > 0.0))
-      table.fail("polar_kg_m2", "found 0, expected a moment of inertia of what the phaser turns");
-    disc.phaser =
-        TorsionLaw{phaser->number("stiffness_n_m_rad", kStiffness),
-                   phaser->number_or("damping_n_m_s_rad", 0.0, kDamping),
-                   phaser->number_or("backlash_deg", 0.0, Range::between(0.0, 360.0)) * kDegree};
-  }
-  return disc;
-}
-
-ShaftBearingSpec read_bearing(const Config& table, const ShaftSections& shaft) {
-  ShaftBearingSpec bearing;
-  bearing.name = read_name(table);
-  bearing.at = read_position(table, shaft);
-  if (table.has("on")) bearing.on = read_point(table, "on");
-  bearing.on.where = table.where("on");
-  const std::string model = table.choice("model", {"butenschoen", "moes", "linear"});
-  if (model == "linear") {
-    bearing.stiffness = table.number("stiffness_n_m", kStiffness);
-    bearing.damping = table.number_or("damping_n_s_m", 0.0, kDamping);
-  } else {
-    bearing.film = model == "moes" ? BearingModel::kMoes : BearingModel::kButenschoen;
-    bearing.size = read_bearing_size(table);
-  }
-  bearing.thrust.stiffness = table.number_or("thrust_stiffness_n_m", 0.0, kStiffness);
-  bearing.thrust.damping = table.number_or("thrust_damping_n_s_m", 0.0, kDamping);
-  return bearing;
-}
-
-ShaftModel read_model(const Config& table) {
-  const std::string model = table.choice("model", {"full", "torsion", "rigid"});
-  return model == "full"      ? ShaftModel::kFull
-         : model == "torsion" ? ShaftModel::kTorsion
-                              : ShaftModel::kRigid;
-}
-
-/// The speed at the start: of its own, or that of a drive times a ratio [rad/s].
-double read_start_speed(const Config& root, const Config& table) {
-  if (!table.has("speed_of")) {
-    if (table.has("speed_ratio")) table.fail("speed_ratio", "found without speed_of");
-    return table.number_or("speed_rpm", 0.0, Range::between(-1e6, 1e6)) * kRpm;
-  }
-  if (table.has("speed_rpm")) table.fail("speed_rpm", "found with speed_of, expected one of both");
-  return speed_of_drive(root, table, "speed_of") *
-         table.number_or("speed_ratio", 1.0, Range::between(-1e3, 1e3));
+/// Discs and bearings are on the shaft and have names of their own.
+void check_parts(const Config& table, const ShaftSpec& shaft) {
+  std::map<std::string, std::string> names;
+  const auto check = [&](const char* kind, const auto& parts) {
+    const std::vector<Config> tables = table.tables(kind);
+    for (size_t k = 0; k < parts.size(); ++k) {
+      const double at = parts[k].at, begin = shaft.sections->begin(), end = shaft.sections->end();
+      if (!(at >= begin && at <= end))
+        tables[k].fail("at_mm", fmt::format("found {:g}, expected on the shaft, {:g} to {:g}",
+                                            at / kMilli, begin / kMilli, end / kMilli));
+      check_new_name(tables[k], "part of the shaft", parts[k].name, names);
+    }
+  };
+  check("disc", shaft.discs);
+  check("bearing", shaft.bearings);
+  if (shaft.slices == 0 && shaft.discs.empty() && shaft.bearings.empty())
+    table.fail("slices", "found 0 and no disc or bearing, expected at least one of them");
 }
 
 }  // namespace
 
-BearingSize read_bearing_size(const Config& table) {
-  BearingSize size;
-  size.diameter = table.number("diameter_mm", kDiameterMm) * kMilli;
-  size.width = table.number("width_mm", kDiameterMm) * kMilli;
-  size.clearance = table.number("clearance", Range::between(1e-6, 0.1));
-  size.viscosity = table.number("viscosity_mpa_s", Range::between(1e-4, 1e6)) * kMilli;
+void check_bearing_width(const Config& table, const BearingSize& size) {
   const double x = size.width / size.diameter;
   if (!(x >= 0.12 && x <= 1.0))
     table.fail("width_mm", fmt::format("found {:g}, which is {:.3g} of the diameter, expected 0.12 "
                                        "to 1, where the film's formulas hold",
                                        size.width / kMilli, x));
-  return size;
+}
+
+const Keys<ShaftSpec>& shaft_keys() {
+  static const Keys<ShaftSpec> keys(
+      "shaft", "an elastic shaft with discs in journal bearings: camshafts",
+      [](auto& key, ShaftSpec& shaft) {
+        key.where(shaft.where);
+        name_row(key, shaft.name).required();
+        axis_row(key, shaft.axes.axis);
+        key.vector("centre_mm", shaft.centre, kPositionMm, "point of the axis where at_mm is 0");
+        key.choice("model", shaft.model,
+                   {{"full", ShaftModel::kFull},
+                    {"torsion", ShaftModel::kTorsion},
+                    {"rigid", ShaftModel::kRigid}},
+                   "bending and torsion in its bearings, torsion alone, or one angle");
+        key.number("speed_rpm", shaft.start.speed, Range::between(-1e6, 1e6), "speed at the start");
+        key.text("speed_of", shaft.speed_of, "the [[drive]] whose speed it has at the start")
+            .excludes("speed_rpm");
+        key.number("speed_ratio", shaft.speed_ratio, Range::between(-1e3, 1e3),
+                   "factor of that speed")
+            .needs("speed_of");
+        key.number("start_deg", shaft.start.angle, kAngleDeg, "angle at the start");
+        key.integer("slices", shaft.slices, Range::between(0.0, 1000.0),
+                    "further rigid slices of equal length, between discs and bearings");
+        key.number("youngs_modulus_gpa", shaft.material.youngs, Range::between(1e-6, 1e4),
+                   "Young's modulus");
+        key.number("shear_modulus_gpa", shaft.material.shear, Range::between(1e-6, 1e4),
+                   "shear modulus");
+        key.number("density_kg_m3", shaft.material.density, Range::between(1e-3, 1e5), "density");
+        key.number("shear_factor", shaft.material.shear_factor, Range::between(0.1, 10.0),
+                   "Timoshenko's; without it Cowper's of a hollow circle");
+        key.number("loss_time_us", shaft.loss_time, Range::between(0.0, 1e6),
+                   "damping over stiffness");
+        error_scale_rows(key, shaft);
+        key.tables("section", shaft.pieces, section_keys()).required();
+        key.tables("disc", shaft.discs, disc_keys());
+        key.tables("bearing", shaft.bearings, shaft_bearing_keys());
+        key.check(make_sections);
+        key.check(check_parts);
+      });
+  return keys;
 }
 
 ShaftSpec read_shaft(const Config& root, const Config& table) {
-  ShaftSpec shaft;
-  shaft.name = read_name(table);
-  shaft.where = table.where();
-  shaft.axes.axis = table.choice("axis", {"z", "x", "y"})[0] - 'x';
-  if (table.has("centre_mm")) shaft.centre = read_vector(table, "centre_mm", 1e6) * kMilli;
-  shaft.model = read_model(table);
-  shaft.sections = read_sections(table);
-  std::set<std::string> names;
-  const auto check_name = [&](const Config& one, const std::string& name) {
-    if (!names.insert(name).second)
-      one.fail("name", fmt::format("a second \"{}\" of the shaft, expected each name once", name));
-  };
-  for (const Config& one : table.tables("disc")) {
-    shaft.discs.push_back(read_disc(one, *shaft.sections));
-    check_name(one, shaft.discs.back().name);
-  }
-  for (const Config& one : table.tables("bearing")) {
-    shaft.bearings.push_back(read_bearing(one, *shaft.sections));
-    check_name(one, shaft.bearings.back().name);
-  }
-  shaft.slices = static_cast<int>(table.integer_or("slices", 0, Range::between(0, 1000)));
-  if (shaft.slices == 0 && shaft.discs.empty() && shaft.bearings.empty())
-    table.fail("slices", "found 0 and no disc or bearing, expected at least one of them");
-  shaft.start.speed = read_start_speed(root, table);
-  shaft.start.angle = table.number_or("start_deg", 0.0, kAngle) * kDegree;
-  shaft.loss_time = table.number_or("loss_time_us", 0.0, Range::between(0.0, 1e6)) * 1e-6;
-  read_error_scales(table, shaft);
+  ShaftSpec shaft = shaft_keys().read(table);
+  if (!shaft.speed_of.empty())
+    shaft.start.speed = speed_of_drive(root, table, "speed_of", shaft.speed_of) * shaft.speed_ratio;
   return shaft;
 }
 

@@ -3,60 +3,69 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 #include "core/base/error.hpp"
-#include "core/base/units.hpp"
-#include "dynamics/component/component_keys.hpp"
 #include "dynamics/shaft/shaft_catalogue.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
-constexpr double kPerRpm = std::numbers::pi / 30.0;  // [rad/s]
-const Range kTorque = Range::between(-1e12, 1e12), kTurn = Range::between(-1e6, 1e6);
+const Range kTorque = Range::between(-1e12, 1e12);
 
-TorqueSpec read_torque(const Config& table, size_t number) {
-  const Range loss = Range::between(0.0, 1e12);
-  TorqueSpec spec;
-  spec.name = "torque " + (table.has("name") ? read_name(table) : fmt::format("{}", number));
-  spec.bodies = read_turn_bodies(table);
-  TorqueTable& law = spec.table;
-  law.constant = table.number_or("value_n_m", 0.0, kTorque);
-  for (const Config& one : table.tables("order"))
-    law.orders.push_back({one.number("order", Range::between(1e-6, 1e6)),
-                          one.number("amplitude_n_m", kTorque),
-                          one.number_or("phase_deg", 0.0, kTurn) * kDegree});
-  if (table.has("table")) {
-    spec.file = table.path("table");
-    const double period = table.number_or("period_deg", 360.0, Range::between(1e-3, 1e6)) * kDegree;
-    const int degree = table.choice("spline", {"cubic", "quintic"}) == "cubic" ? 3 : 5;
-    law.table = read_angle_table(spec.file, table.text_or("column", ""), "N m", period, degree);
-    law.scale = table.number_or("scale", 1.0, kTorque);
-  }
-  law.zero = table.number_or("zero_deg", 0.0, kTurn) * kDegree;
-  if (table.has("at_speed_rpm"))
-    law.speed = table.number("at_speed_rpm", Range::between(1e-6, 1e6)) * kPerRpm;
-  law.drag = table.number_or("drag_n_m", 0.0, loss);
-  law.drag_speed = table.number_or("drag_speed_rad_s", law.drag_speed, Range::between(1e-9, 1e6));
-  law.viscous = table.number_or("viscous_n_m_s", 0.0, loss);
+const Keys<TorqueOrder>& torque_order_keys() {
+  static const Keys<TorqueOrder> keys(
+      "order", "amplitude cos(order angle + phase)", [](auto& key, TorqueOrder& order) {
+        key.number("order", order.order, Range::between(1e-6, 1e6), "per turn").required();
+        key.number("amplitude_n_m", order.amplitude, kTorque, "amplitude")
+            .shown_in("N m")
+            .required();
+        key.number("phase_deg", order.phase, kAngleDeg, "phase");
+      });
+  return keys;
+}
+
+void read_torque_table(const Config& table, TorqueSpec& found) {
+  TorqueTable& law = found.table;
+  if (!found.file.empty())
+    law.table = read_angle_table(found.file, found.column, "N m", found.period, found.degree);
   if (law.constant == 0.0 && law.orders.empty() && !law.table && law.drag == 0.0 &&
       law.viscous == 0.0)
     throw InputError(table.where() +
                      ": torque: found none, expected value_n_m, table, [[torque.order]], drag_n_m "
                      "or viscous_n_m_s");
-  return spec;
 }
 
 }  // namespace
 
-TurnBodies read_turn_bodies(const Config& table) {
-  TurnBodies bodies;
-  bodies.body = table.text("body");
-  bodies.where = table.where("body");
-  bodies.reaction = table.text_or("reaction", "");
-  bodies.reaction_where = table.where("reaction");
-  return bodies;
+const Keys<TorqueSpec>& torque_keys() {
+  static const Keys<TorqueSpec> keys(
+      "torque", "a torque over the angle of the body on which it acts",
+      [](auto& key, TorqueSpec& torque) {
+        const Range loss = Range::between(0.0, 1e12);
+        TorqueTable& law = torque.table;
+        name_row(key, torque.name);
+        turn_body_rows(key, torque.bodies);
+        key.number("value_n_m", law.constant, kTorque, "constant torque").shown_in("N m");
+        key.tables("order", law.orders, torque_order_keys());
+        key.path("table", torque.file, "CSV of the torque over the angle, one period");
+        key.all_need("table", {}, "", [&] {
+          key.text("column", torque.column, "column of the table; without it the second one");
+          key.number("period_deg", torque.period, Range::between(1e-3, 1e6), "period of the table");
+          key.choice("spline", torque.degree, {{"cubic", 3}, {"quintic", 5}},
+                     "between the rows of the table");
+          key.number("scale", law.scale, kTorque, "factor of the table");
+        });
+        key.number("zero_deg", law.zero, kAngleDeg,
+                   "angle of the body where that of table and orders is 0");
+        key.number("at_speed_rpm", law.speed, Range::between(1e-6, 1e6),
+                   "speed at which constant, orders and table hold: they grow with its square; "
+                   "at any without it");
+        key.number("drag_n_m", law.drag, loss, "torque against the rotation").shown_in("N m");
+        key.number("drag_speed_rad_s", law.drag_speed, Range::between(1e-9, 1e6),
+                   "speed at which the drag is 71 % of it");
+        key.number("viscous_n_m_s", law.viscous, loss, "torque against the speed, over the speed");
+        key.check(read_torque_table);
+      });
+  return keys;
 }
 
 TurnAngles angles_of(const TurnBodies& bodies, ModelBuilder& model) {
@@ -97,10 +106,7 @@ void TorqueComponent::add_effects(const ModelBuilder&, EffectTable& effects) con
 }
 
 ComponentList read_torques(const Config& root) {
-  std::vector<TorqueSpec> torques;
-  for (const Config& table : root.tables("torque"))
-    torques.push_back(read_torque(table, torques.size() + 1));
-  return {std::make_shared<TorqueComponent>(std::move(torques))};
+  return {std::make_shared<TorqueComponent>(read_elements(root, "torque", torque_keys()))};
 }
 
 }  // namespace clatter::dynamics

@@ -2,13 +2,14 @@
 #pragma once
 // [[torque]]: torques over the angle of a body.
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "dynamics/component/component.hpp"
-#include "dynamics/component/model_builder.hpp"
+#include "dynamics/component/component_keys.hpp"
 #include "dynamics/shaft/turn_torque.hpp"
 
 namespace clatter::dynamics {
@@ -18,7 +19,13 @@ struct TurnBodies {
   std::string body, where;
   std::string reaction, reaction_where;  // empty: the ground
 };
-TurnBodies read_turn_bodies(const Config& table);
+template <class S>
+void turn_body_rows(Keys<S>& key, TurnBodies& bodies) {
+  key.text("body", bodies.body, "the body on which it acts").required();
+  key.text("reaction", bodies.reaction, "the body that bears its reaction; without it the ground");
+  key.where(bodies.where, "body");
+  key.where(bodies.reaction_where, "reaction");
+}
 
 /// The y indices of both angles. InputError for bodies that do not turn, or not about the same
 /// axis.
@@ -34,7 +41,11 @@ struct TorqueSpec {
   TurnBodies bodies;
   TorqueTable table;
   std::filesystem::path file;  // of the table; empty: none
+  std::string column;
+  double period = 2.0 * std::numbers::pi;  // of the table [rad]
+  int degree = 3;                          // of its spline
 };
+const Keys<TorqueSpec>& torque_keys();
 
 /// All torques of a scene, which grow over the ramp of the start, but for drag.
 class TorqueComponent : public Component {

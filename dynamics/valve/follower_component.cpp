@@ -83,18 +83,8 @@ std::vector<std::string> FollowerComponent::warnings() const {
 
 ComponentList read_followers(const Config& root) {
   ComponentList followers;
-  for (const Config& table : root.tables("follower")) {
-    FollowerTable one;
-    one.name = read_name(table);
-    one.where = table.where();
-    one.lobe = read_lobe(table.table("cam"), 1);
-    one.plane = read_follower_plane(table);
-    one.cam = read_cam(table);
-    read_follower(table, one.follower);
-    if (table.has("ball")) one.ball = read_point(table, "ball");
-    one.tip = read_point(table, "tip");
+  for (FollowerTable& one : read_named(root, "follower", follower_keys()))
     followers.push_back(std::make_shared<FollowerComponent>(std::move(one)));
-  }
   return followers;
 }
 

@@ -15,10 +15,12 @@ struct FollowerTable {
   std::string name, where;
   LobeSpec lobe;
   FollowerPlane plane;
-  CamSpec cam;
+  CamLawSpec law;
+  CamSpec cam;  // by the law
   FollowerSpec follower;
   PointSpec ball, tip;  // what carries the ball; the valve
 };
+const Keys<FollowerTable>& follower_keys();
 
 /// A follower, the body `name` in a plane, with its contacts: cam, ball, tip of a valve that is
 /// closed at the start or moves with the cam.

@@ -8,8 +8,9 @@
 #include <string>
 
 #include "core/base/config.hpp"
-#include "dynamics/component/model_builder.hpp"
+#include "dynamics/component/component_keys.hpp"
 #include "dynamics/profile/mattress.hpp"
+#include "dynamics/shaft/cam_torque_component.hpp"
 #include "dynamics/valve/cam_profile.hpp"
 #include "dynamics/valve/follower_geometry.hpp"
 #include "dynamics/valve/roller_contact.hpp"
@@ -102,14 +103,22 @@ FollowerElements add_follower_elements(ModelBuilder& model, const std::string& n
                                        const CamProfile& profile, FollowerNeighbours neighbours);
 
 /// Keys of a follower's sizes, masses and contacts.
-void read_follower(const Config& table, FollowerSpec& spec);
+const Keys<FollowerSpec>& follower_spec_keys();
 /// Keys law, and those of the law: "polynomial", "table" of the lift, "radius" of the profile.
-CamSpec read_cam(const Config& table);
+template <class S>
+void cam_rows(Keys<S>& key, CamLawSpec& law) {
+  using Kind = CamLawSpec::Kind;
+  key.choice(
+      "law", law.kind,
+      {{"polynomial", Kind::kPolynomial}, {"table", Kind::kTable}, {"radius", Kind::kRadius}},
+      "lift of the valve over the angle of the cam, or a table of the cam's radius");
+  cam_law_rows(key, law, {"table", "radius"});
+}
+CamSpec make_cam(const CamLawSpec& spec);
 /// Keys body, at_mm, deg, and name.
-LobeSpec read_lobe(const Config& table, size_t number);
+const Keys<LobeSpec>& lobe_keys();
 /// Keys axis, opening, mirrored.
-FollowerPlane read_follower_plane(const Config& table);
-
+const Keys<FollowerPlane>& follower_plane_keys();
 /// Motion of a port at the start.
 PortState port_at_start(const ModelBuilder& model, const Port& port);
 

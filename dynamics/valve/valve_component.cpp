@@ -29,21 +29,22 @@ constexpr double kSpringLength = 40e-3, kValveLength = 100e-3, kAdjusterLength =
 
 double ValveSpec::reduced_mass() const {
   const double arm = follower.geometry.pad.x();
-  return mass + follower.inertia / (arm * arm) + spring.mass / 3.0;
+  return mass + follower.inertia / (arm * arm) + coil.spring.mass / 3.0;
 }
 
 std::vector<std::filesystem::path> ValveComponent::inputs() const {
   std::vector<std::filesystem::path> files;
   if (!spec_.cam.file.empty()) files.push_back(spec_.cam.file);
-  if (!spec_.adjuster.supply.table.empty()) files.push_back(spec_.adjuster.supply.table);
+  if (!spec_.adjuster.sizes.supply.table.empty())
+    files.push_back(spec_.adjuster.sizes.supply.table);
   return files;
 }
 
 ComponentSize ValveComponent::size() const {
   if (spec_.model == ValveModel::kQuasiStatic) return {};
-  const bool ball = spec_.adjuster.chamber.valve.ball == CheckValveSpec::Ball::kMoving;
-  const int adjuster = spec_.hydraulic ? (ball ? 3 : 2) : 0;
-  const int each = 4 + adjuster + spec_.spring.masses;
+  const bool ball = spec_.adjuster.sizes.chamber.valve.ball == CheckValveSpec::Ball::kMoving;
+  const int adjuster = spec_.adjuster.is_hydraulic ? (ball ? 3 : 2) : 0;
+  const int each = 4 + adjuster + spec_.coil.spring.masses;
   return {.modes = each * static_cast<int>(spec_.lobes.size()), .film_cells = 0};
 }
 
@@ -52,8 +53,8 @@ FollowerPlace ValveComponent::place(const ValveLobe& lobe) const {
 }
 
 Vector3d ValveComponent::axis(const Train& train) const {
-  return spec_.adjuster_axis.x() * train.place.plane.first +
-         spec_.adjuster_axis.y() * train.place.plane.second;
+  return spec_.adjuster.axis.x() * train.place.plane.first +
+         spec_.adjuster.axis.y() * train.place.plane.second;
 }
 
 /// A point of the valve's axis at rest, from its tip on.
@@ -64,24 +65,24 @@ Vector3d ValveComponent::on_axis(const Train& train, double beyond) const {
 
 /// For a static equilibrium it is sealed: an open valve would press its oil out.
 Chamber ValveComponent::chamber(const ModelBuilder& model) const {
-  ChamberSpec spec = spec_.adjuster.chamber;
+  ChamberSpec spec = spec_.adjuster.sizes.chamber;
   if (model.at_rest) {
     spec.leak.height = 0.0;
     spec.valve.ball = spec.valve.ball == CheckValveSpec::Ball::kMoving
                           ? CheckValveSpec::Ball::kMoving
                           : CheckValveSpec::Ball::kStuckShut;
   }
-  return {spec, supply_pressure(spec_.adjuster.supply, model)};
+  return {spec, supply_pressure(spec_.adjuster.sizes.supply, model)};
 }
 
 /// The supply's, or what holds an open valve against its spring [Pa].
 double ValveComponent::start_pressure(const ModelBuilder& model, const Train& train) const {
-  const HydraulicSpec& adjuster = spec_.adjuster;
+  const HydraulicSpec& adjuster = spec_.adjuster.sizes;
   if (adjuster.start_pressure) return *adjuster.start_pressure;
   const double supply = supply_pressure(adjuster.supply, model)(model.time.begin);
   if (train.start.lift <= 0.0) return supply;
-  const double valve = spec_.spring.force + spec_.spring.stiffness * train.start.lift;
-  const double push = -valve * train.start.state.ball_force.dot(spec_.adjuster_axis);
+  const double valve = spec_.coil.spring.force + spec_.coil.spring.stiffness * train.start.lift;
+  const double push = -valve * train.start.state.ball_force.dot(spec_.adjuster.axis);
   return std::max(
       supply, adjuster.chamber.outside + (push - adjuster.spring.force) / adjuster.chamber.area());
 }
@@ -105,12 +106,13 @@ void ValveComponent::add_train(ModelBuilder& model, const ValveLobe& lobe) {
   model.add_body(std::move(valve), lobe.where);
   add_follower_body(model, train.name + "_follower", lobe.where, spec_.follower, train.place,
                     start);
-  model.add_body(make_coil_body(train.name + "_coils", spec_.spring, -spec_.plane.opening,
+  model.add_body(make_coil_body(train.name + "_coils", spec_.coil.spring, -spec_.plane.opening,
                                 {0.0, -start.lift, 0.0, -start.rate}),
                  lobe.where);
-  if (spec_.hydraulic) {
-    model.add_body(make_sliding_body(train.name + "_plunger", spec_.plunger_mass, axis(train), 0.0),
-                   lobe.where);
+  if (spec_.adjuster.is_hydraulic) {
+    model.add_body(
+        make_sliding_body(train.name + "_plunger", spec_.adjuster.plunger_mass, axis(train), 0.0),
+        lobe.where);
     model.add_body(make_chamber_body(train.name + "_chamber", chamber(model), model.time.begin, 0.0,
                                      start_pressure(model, train)),
                    lobe.where);
@@ -141,23 +143,23 @@ void ValveComponent::add_train_elements(ModelBuilder& model, const ValveLobe& lo
   auto seat_port = model.port(lobe.seat, on_axis(train, kValveLength));
   const PortState seat_at = port_at_start(model, *seat_port);
   // Lift 0 is a valve that its spring presses into the seat.
-  const Vector3d pressed = spec_.spring.force / spec_.seat_stiffness * opening;
+  const Vector3d pressed = spec_.coil.spring.force / spec_.seat.stiffness * opening;
   auto seat = std::make_unique<CompliantStop>(
       prefix + " seat" + suffix,
       PointOnPlane(valve(seat_at.position - pressed), std::move(seat_port),
                    seat_at.rotation.transpose() * opening),
-      spec_.seat_stiffness, 1.0, spec_.seat_damping, FrictionLaw{});
+      spec_.seat.stiffness, 1.0, spec_.seat.damping, FrictionLaw{});
   train.seat = seat.get();
   system.add_element(std::move(seat));
 
   auto stand = model.port(lobe.spring_seat, on_axis(train, kSpringLength));
   const Vector3d stand_at = port_at_start(model, *stand).position;
   std::vector<int> coils;
-  for (int k = 0; k < spec_.spring.masses; ++k)
+  for (int k = 0; k < spec_.coil.spring.masses; ++k)
     coils.push_back(system.coordinate(model.body(train.name + "_coils"), k));
   auto spring = std::make_unique<CoilSpring>(
       prefix + " spring" + suffix, CoilEnd(std::move(stand), -opening, stand_at),
-      CoilEnd(valve(tip), -opening, tip), coils, spec_.spring);
+      CoilEnd(valve(tip), -opening, tip), coils, spec_.coil.spring);
   train.spring = spring.get();
   system.add_element(std::move(spring));
 
@@ -168,7 +170,8 @@ void ValveComponent::add_train_elements(ModelBuilder& model, const ValveLobe& lo
                             train.place, *profile_, std::move(neighbours))
           .roller;
   std::vector<int> watched{train.lift};
-  if (spec_.hydraulic) watched.push_back(system.coordinate(model.body(train.name + "_plunger"), 0));
+  if (spec_.adjuster.is_hydraulic)
+    watched.push_back(system.coordinate(model.body(train.name + "_plunger"), 0));
   auto watch =
       std::make_unique<ValveWatch>(prefix + " watch" + suffix, watched, *train.roller, *profile_);
   train.watch = watch.get();
@@ -180,7 +183,7 @@ std::unique_ptr<Port> ValveComponent::add_adjuster(ModelBuilder& model, const Va
                                                    Train& train) {
   System& system = model.system;
   const Vector3d ball = train.place.plane.origin;
-  if (!spec_.hydraulic) {
+  if (!spec_.adjuster.is_hydraulic) {
     auto port = model.port(lobe.adjuster, ball);
     const double beside = (port_at_start(model, *port).position - ball).norm();
     if (beside > 1e-6)
@@ -201,14 +204,14 @@ std::unique_ptr<Port> ValveComponent::add_adjuster(ModelBuilder& model, const Va
   const double offset = along.dot(ball - at.position);
   const int chamber_body = model.body(train.name + "_chamber");
   std::vector<int> own{system.coordinate(chamber_body, 0)};
-  if (spec_.adjuster.chamber.valve.ball == CheckValveSpec::Ball::kMoving)
+  if (spec_.adjuster.sizes.chamber.valve.ball == CheckValveSpec::Ball::kMoving)
     own.push_back(system.coordinate(chamber_body, 1));
   auto element = std::make_unique<HydraulicElement>(
       "valve " + spec_.name + " adjuster " + lobe.name,
       PlungerAxis(std::move(housing), plunger(), at.rotation.transpose() * along, offset),
-      chamber(model), spec_.adjuster.spring, HydraulicModel::kHydraulic, own, 0.0,
+      chamber(model), spec_.adjuster.sizes.spring, HydraulicModel::kHydraulic, own, 0.0,
       model.time.begin);
-  element->set_stops(spec_.adjuster.stops);
+  element->set_stops(spec_.adjuster.sizes.stops);
   train.adjuster = element.get();
   system.add_element(std::move(element));
   return plunger();
@@ -222,8 +225,8 @@ void ValveComponent::add_torque(ModelBuilder& model) {
                                                          CamTrain{*spec_.cam.law,
                                                                   {lobe.angle},
                                                                   1.0,
-                                                                  spec_.spring.force,
-                                                                  spec_.spring.stiffness,
+                                                                  spec_.coil.spring.force,
+                                                                  spec_.coil.spring.stiffness,
                                                                   spec_.reduced_mass()},
                                                          [](double) { return 1.0; }));
   }
@@ -244,11 +247,12 @@ void ValveComponent::add_effects(const ModelBuilder&, EffectTable& effects) cons
   if (spec_.model == ValveModel::kQuasiStatic)
     effects.add(find_effect(kValveEffects, "torque of valves"), prefix + " torque", true,
                 "springs and inertia, quasi-static", prefix);
-  add_spring_effect(prefix + " spring", spec_.spring, effects);
+  add_spring_effect(prefix + " spring", spec_.coil.spring, effects);
   effects.add(find_effect(kValveEffects, "lash adjuster of valves"), prefix + " adjuster",
-              spec_.hydraulic,
-              spec_.hydraulic ? "lash_adjuster.model = \"hydraulic\": content of the chamber"
-                              : "lash_adjuster.model = \"rigid\"",
+              spec_.adjuster.is_hydraulic,
+              spec_.adjuster.is_hydraulic
+                  ? "lash_adjuster.model = \"hydraulic\": content of the chamber"
+                  : "lash_adjuster.model = \"rigid\"",
               prefix + " adjuster");
   add_cam_effect(prefix + " cam", prefix + " cam", *profile_, effects);
   effects.add(find_effect(kValveEffects, "contacts of valve and follower"), prefix + " contacts",

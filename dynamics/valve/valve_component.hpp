@@ -11,6 +11,7 @@
 #include "dynamics/hydraulic/hydraulic_component.hpp"
 #include "dynamics/valve/coil_spring.hpp"
 #include "dynamics/valve/follower_parts.hpp"
+#include "dynamics/valve/valve_spring_component.hpp"
 #include "dynamics/valve/valve_watch.hpp"
 
 namespace clatter::dynamics {
@@ -18,6 +19,7 @@ namespace clatter::dynamics {
 /// One cam of a [[valve]] with what its valve is mounted on; points without body are the ground's.
 struct ValveLobe : LobeSpec {
   PointSpec seat, spring_seat, adjuster;
+  PointSpec on;  // what carries those of them that are not given
 };
 
 enum class ValveModel : char {
@@ -25,27 +27,36 @@ enum class ValveModel : char {
   kQuasiStatic,  // the torque on the cam by the lift law
 };
 
+struct ValveSeatSpec {
+  double stiffness = 5e7, damping = 2.0;  // [N/m], chi [s/m]
+};
+
+/// The lash adjuster of a valve.
+struct TrainAdjusterSpec {
+  bool is_hydraulic = true;  // else the ball does not move
+  double plunger_mass = 0.010;
+  Eigen::Vector2d axis = {0.0, 1.0};  // in the follower's plane, out of the housing
+  HydraulicSpec sizes = train_adjuster_keys().standard();
+};
+
 /// One [[valve]]: equal valves of one camshaft.
 struct ValveSpec {
   std::string name, where;
   ValveModel model = ValveModel::kFull;
   FollowerPlane plane;
-  CamSpec cam;
+  CamLawSpec law;
+  CamSpec cam;  // by the law
   std::vector<ValveLobe> lobes;
-  double mass = 0.053;                              // of a valve with its retainer [kg]
-  double seat_stiffness = 5e7, seat_damping = 2.0;  // [N/m], chi [s/m]
-  CoilSpringSpec spring;
+  double mass = 0.053;  // of a valve with its retainer [kg]
+  ValveSeatSpec seat;
+  CoilSpringTable coil;
   FollowerSpec follower;
-  bool hydraulic = true;  // else the ball does not move
-  double plunger_mass = 0.010;
-  Eigen::Vector2d adjuster_axis = {0.0, 1.0};  // in the follower's plane, out of the housing
-  HydraulicSpec adjuster = lash_adjuster_defaults();
-
+  TrainAdjusterSpec adjuster;
   /// Of valve, follower and a third of the spring, at the valve [kg].
   double reduced_mass() const;
   std::string name_of(const ValveLobe& lobe) const { return name + "_" + lobe.name; }
 };
-ValveSpec read_valve(const Config& table);
+const Keys<ValveSpec>& valve_keys();
 
 /// Valves, each with its body "<valve>_<lobe>" that slides along its axis,
 /// "<valve>_<lobe>_follower" in a plane, "_plunger" that slides, "_chamber" of its oil and "_coils"

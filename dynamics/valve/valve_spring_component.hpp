@@ -1,25 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // [[valve_spring]]: coil springs with mass between two points.
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "core/keys/keys.hpp"
 #include "dynamics/component/component.hpp"
 #include "dynamics/component/model_builder.hpp"
 #include "dynamics/valve/coil_spring.hpp"
 
 namespace clatter::dynamics {
 
+/// A coil spring as its keys say.
+struct CoilSpringTable {
+  CoilSpringSpec spring;
+  SpringWire wire;
+  std::optional<double> stiffness, mass;  // instead of the wire [N/m], [kg]
+};
+const keys::Keys<CoilSpringTable>& coil_spring_keys();
+
 /// One [[valve_spring]].
 struct ValveSpringSpec {
   std::string name, where;
   PointSpec a, b;  // ends, where they are at the installed length
-  CoilSpringSpec spring;
+  CoilSpringTable coil;
 };
-
-/// Keys of a spring: those of its wire, or stiffness_n_m and mass_kg; installed force, travel to
-/// solid, masses, damping, clash.
-CoilSpringSpec read_coil_spring(const Config& table);
+const keys::Keys<ValveSpringSpec>& valve_spring_keys();
 
 /// A spring with mass; its masses are the body "<name>_coils".
 class ValveSpringComponent : public Component {
@@ -29,7 +36,9 @@ class ValveSpringComponent : public Component {
     return std::make_unique<ValveSpringComponent>(*this);
   }
   std::string name() const override { return spec_.name; }
-  ComponentSize size() const override { return {.modes = spec_.spring.masses, .film_cells = 0}; }
+  ComponentSize size() const override {
+    return {.modes = spec_.coil.spring.masses, .film_cells = 0};
+  }
   /// InputError for a spring whose ends are at the same point.
   void add_bodies(ModelBuilder& model) override;
   void add_elements(ModelBuilder& model) override;

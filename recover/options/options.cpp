@@ -3,141 +3,254 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
-#include <utility>
-
-#include "core/base/error.hpp"
-
 namespace clatter::recover {
 namespace {
 
-Span read_span(const Config& table, const Span& fallback) {
-  Span span = fallback;
-  span.in_seconds = table.has("from_s") || table.has("to_s");
-  if (span.in_seconds) {
-    span.from = table.number("from_s");
-    span.to = table.number("to_s");
-  } else {
-    span.from = table.number_or("from_deg", fallback.from);
-    span.to = table.number_or("to_deg", fallback.to);
-  }
-  if (!(span.to > span.from))
-    table.fail(span.in_seconds ? "to_s" : "to_deg",
-               fmt::format("found {:g}, expected more than {:g}", span.to, span.from));
-  return span;
+using keys::Keys;
+
+const Keys<Span>& span_keys() {
+  static const Keys<Span> keys("span", "a part of the run", [](auto& key, Span& span) {
+    key.number("from_deg", span.from, {}, "begin, as a crank angle about firing top dead centre")
+        .unconverted();
+    key.number("to_deg", span.to, {}, "end, as a crank angle about firing top dead centre")
+        .unconverted();
+    key.number("from_s", span.from, {}, "begin, as a time of the run").required_with("to_s");
+    key.number("to_s", span.to, {}, "end, as a time of the run").required_with("from_s");
+    key.in_either("from_deg", "from_s", span.in_seconds);
+    key.in_either("to_deg", "to_s", span.in_seconds);
+    key.check([](const Config& table, Span& s) {
+      if (!(s.to > s.from))
+        table.fail(s.in_seconds ? "to_s" : "to_deg",
+                   fmt::format("found {:g}, expected more than {:g}", s.to, s.from));
+    });
+  });
+  return keys;
 }
 
-Eigen::Vector3d read_point(const Config& table, const char* key) {
-  return Eigen::Vector3d::Map(table.numbers(key, size_t{3}).data());
+/// The row `quantities`.
+template <class Rows>
+void quantities(Rows& key, Quantities& chosen) {
+  key.flags("quantities", chosen,
+            {{"displacement", &Quantities::displacement},
+             {"velocity", &Quantities::velocity},
+             {"acceleration", &Quantities::acceleration},
+             {"normal_velocity", &Quantities::normal_velocity}},
+            "what is written: vectors at the nodes, or the mean over each triangle along its "
+            "normal");
 }
 
-Quantities read_quantities(const Config& table, const Quantities& fallback) {
-  Quantities chosen{false, false, false, false};
-  const std::pair<const char*, bool Quantities::*> all[] = {
-      {"displacement", &Quantities::displacement},
-      {"velocity", &Quantities::velocity},
-      {"acceleration", &Quantities::acceleration},
-      {"normal_velocity", &Quantities::normal_velocity}};
-  const std::vector<std::string> names = table.texts_or("quantities", names_of(fallback));
-  if (names.empty()) table.fail("quantities", "found none, expected at least one");
-  for (const std::string& name : names) {
-    const auto* const at = std::find_if(std::begin(all), std::end(all),
-                                        [&](const auto& entry) { return name == entry.first; });
-    if (at == std::end(all))
-      table.fail("quantities", "found \"" + name +
-                                   "\", expected displacement, velocity, acceleration or "
-                                   "normal_velocity");
-    chosen.*(at->second) = true;
-  }
-  return chosen;
+const Keys<FrameRule>& frame_keys() {
+  static const Keys<FrameRule> keys(
+      "frames", "instants at which the entire skin is written", [](auto& key, FrameRule& frames) {
+        key.flag("on", frames.on, "whether they are written");
+        key.part(frames.span, span_keys());
+        key.number("step_deg", frames.step, Range::positive(), "from one instant to the next")
+            .unconverted();
+        key.number("step_s", frames.step, Range::positive(), "from one instant to the next")
+            .needs("from_s")
+            .required_with("from_s");
+        key.in_either("step_deg", "step_s", frames.span.in_seconds);
+        quantities(key, frames.quantities);
+      });
+  return keys;
 }
 
-void read_frames(const Config& table, FrameRule& frames) {
-  frames.on = table.flag_or("on", frames.on);
-  frames.span = read_span(table, frames.span);
-  if (frames.span.in_seconds)
-    frames.step = table.number("step_s", Range::positive());
-  else
-    frames.step = table.number_or("step_deg", frames.step, Range::positive());
-  frames.quantities = read_quantities(table, frames.quantities);
+const Keys<LineRule>& line_keys() {
+  static const Keys<LineRule> keys(
+      "lines", "frequencies at which the entire skin is written", [](auto& key, LineRule& lines) {
+        key.numbers("frequencies_hz", lines.frequencies_hz, Range::positive(),
+                    "frequencies, to which the nearest lines of the spectrum are taken");
+        key.numbers("orders", lines.orders, Range::positive(),
+                    "the same as engine orders, multiples of the crank's speed");
+        key.integer("strongest", lines.strongest, {0, 1000},
+                    "with neither, this many of the highest peaks of the A-weighted sound power, "
+                    "or of the equivalent radiated power without a sound file");
+        quantities(key, lines.quantities);
+      });
+  return keys;
 }
 
-void read_lines(const Config& table, LineRule& lines) {
-  lines.frequencies_hz = table.numbers_or("frequencies_hz", {});
-  lines.orders = table.numbers_or("orders", {});
-  lines.strongest = static_cast<int>(table.integer_or("strongest", lines.strongest, {0, 1000}));
-  lines.quantities = read_quantities(table, lines.quantities);
-  for (const char* key : {"frequencies_hz", "orders"})
-    for (double value : table.numbers_or(key, {}))
-      if (!(value > 0.0)) table.fail(key, fmt::format("found {:g}, expected more than 0", value));
+const Keys<WindowRule>& window_keys() {
+  static const Keys<WindowRule> keys(
+      "window",
+      "a part of the run that is not periodic, with spectra of its own; window = [] for "
+      "none, from -10 to 60 degrees when no window is given",
+      [](auto& key, WindowRule& window) {
+        key.name("name", window.name, "name of its results").required().distinct();
+        key.part(window.span, span_keys());
+        const char* reason = "cycles begin at firing top dead centre";
+        key.number("cycles", window.cycles, {0.0, 1e5, true},
+                   "this many cycles of 720 degrees from firing top dead centre")
+            .excludes("from_deg", reason)
+            .excludes("to_deg", reason)
+            .excludes("from_s", reason)
+            .excludes("to_s", reason);
+        key.choice("taper", window.taper,
+                   {{"tukey", Taper::kTukey},
+                    {"hann", Taper::kHann},
+                    {"flattop", Taper::kFlatTop},
+                    {"none", Taper::kNone}},
+                   "function that fades its ends");
+        key.choice("domain", window.domain, {{"time", Domain::kTime}, {"angle", Domain::kAngle}},
+                   "whether the samples are uniform in time or in crank angle, where lines are "
+                   "orders");
+        key.number("segment_deg", window.segments.length, Range::not_negative(),
+                   "length of the segments over which powers are averaged, 0 for the entire window")
+            .unconverted();
+        key.number("segment_s", window.segments.length, Range::not_negative(), "the same as a time")
+            .needs("domain", "time", "orders need segments of equal angle");
+        key.in_either("segment_deg", "segment_s", window.segments.in_seconds);
+        key.number("overlap", window.segments.overlap, Range::between(0.0, 0.95),
+                   "share of a segment that the next one repeats");
+        key.check([](const Config& table, WindowRule& w) {
+          if (w.name == "cycle")
+            table.fail("name", "found \"cycle\", the name of the last cycle, expected another one");
+          if (w.cycles) w.span = {0.0, 720.0 * *w.cycles};
+          w.cycles.reset();
+        });
+      });
+  return keys;
 }
 
-/// Segments of a window: segment_deg or segment_s, and overlap.
-SegmentRule read_segments(const Config& table, Domain domain) {
-  SegmentRule rule;
-  rule.in_seconds = table.has("segment_s");
-  if (rule.in_seconds && table.has("segment_deg"))
-    table.fail("segment_s", "found with segment_deg, expected one of them");
-  if (rule.in_seconds && domain == Domain::kAngle)
-    table.fail("segment_s", "found in a window over the angle, expected segment_deg");
-  const char* key = rule.in_seconds ? "segment_s" : "segment_deg";
-  rule.length = table.number_or(key, rule.length, Range::not_negative());
-  rule.overlap = table.number_or("overlap", rule.overlap, Range::between(0.0, 0.95));
-  return rule;
+const Keys<SensorRule>& sensor_keys() {
+  static const Keys<SensorRule> keys(
+      "sensor", "a point whose motion is written; every set of kind \"sensor\" when none is given",
+      [](auto& key, SensorRule& sensor) {
+        key.name("name", sensor.name, "name of its results; that of the set without it")
+            .required_with("position");
+        key.text("set", sensor.set, "a set of the reduced part");
+        key.vector("position", sensor.position, {},
+                   "point to which the nearest node of the skin is taken")
+            .shown_in("m");
+        key.direction("direction", sensor.direction,
+                      "direction of the motion; x, y, z and the normal without it");
+        key.one_of({"set", "position"});
+        key.check([](const Config&, SensorRule& s) {
+          if (s.name.empty()) s.name = s.set;
+        });
+      });
+  return keys;
 }
 
-WindowRule read_window(const Config& table) {
-  WindowRule window;
-  window.name = table.text("name");
-  if (window.name.empty() || window.name == "cycle" || window.name.find('/') != std::string::npos)
-    table.fail("name",
-               "found '" + window.name + "', expected a name without '/', other than cycle");
-  constexpr double kMostCycles = 100000.0;
-  if (table.has("cycles")) {
-    for (const char* key : {"from_deg", "to_deg", "from_s", "to_s"})
-      if (table.has(key)) table.fail(key, "found with cycles, expected one of them");
-    window.span = {0.0, 720.0 * table.number("cycles", {0.0, kMostCycles, true})};
-  } else {
-    window.span = read_span(table, window.span);
-  }
-  window.taper = taper_of(table.choice("taper", {"tukey", "hann", "flattop", "none"}));
-  const bool by_angle = table.choice("domain", {"time", "angle"}) == "angle";
-  window.domain = by_angle ? Domain::kAngle : Domain::kTime;
-  window.segments = read_segments(table, window.domain);
-  return window;
+const Keys<PanelRule>& panel_keys() {
+  static const Keys<PanelRule> keys(
+      "panel",
+      "a group of faces of the skin with a power of its own, which fulfil all its conditions; the "
+      "skin, its exposed faces and their six sides when none is given",
+      [](auto& key, PanelRule& panel) {
+        key.name("name", panel.name, "name of its results").required();
+        key.texts("surfaces", panel.surfaces, "surfaces of the mesh, on one of which a face lies");
+        key.direction("direction", panel.direction,
+                      "direction near which a face's outward normal is");
+        key.number("angle_deg", panel.angle_deg, {0.0, 180.0, true},
+                   "largest angle between normal and direction")
+            .unconverted();
+        key.vector("box_min", panel.box_min, {}, "lower corner of a box around the faces' centres")
+            .shown_in("m");
+        key.vector("box_max", panel.box_max, {}, "upper corner of that box").shown_in("m");
+        key.flag("exposed", panel.exposed,
+                 "whether only faces belong to it whose normal meets nothing of the body");
+      });
+  return keys;
 }
 
-PanelRule read_panel(const Config& table) {
-  PanelRule panel{.name = table.text("name")};
-  if (panel.name.empty() || panel.name.find('/') != std::string::npos)
-    table.fail("name", "found '" + panel.name + "', expected a name without '/'");
-  if (table.has("direction")) panel.direction = read_point(table, "direction");
-  if (panel.direction && !(panel.direction->norm() > 0.0))
-    table.fail("direction", "found a zero vector, expected a direction");
-  panel.surfaces = table.texts_or("surfaces", {});
-  panel.angle_deg = table.number_or("angle_deg", panel.angle_deg, {0.0, 180.0, true});
-  if (table.has("box_min")) panel.box_min = read_point(table, "box_min");
-  if (table.has("box_max")) panel.box_max = read_point(table, "box_max");
-  panel.exposed = table.flag_or("exposed", panel.exposed);
-  return panel;
+const Keys<SpectrumBand>& band_keys() {
+  static const Keys<SpectrumBand> keys(
+      "spectrum", "the band of spectra, third octaves and totals",
+      [](auto& key, SpectrumBand& band) {
+        key.number("from_hz", band.from_hz, Range::positive(), "lower end");
+        key.number("to_hz", band.to_hz, Range::not_negative(),
+                   "upper end, 0 for as far as the reduced basis is accurate");
+        key.check([](const Config& table, SpectrumBand& b) {
+          if (b.to_hz > 0.0 && !(b.to_hz > b.from_hz))
+            table.fail("to_hz", fmt::format("found {:g}, expected more than from_hz = {:g}",
+                                            b.to_hz, b.from_hz));
+        });
+      });
+  return keys;
 }
 
-SensorRule read_sensor(const Config& table) {
-  SensorRule sensor{.name = table.text_or("name", table.text_or("set", ""))};
-  sensor.set = table.text_or("set", "");
-  if (table.has("position")) sensor.position = read_point(table, "position");
-  if (table.has("direction")) sensor.direction = read_point(table, "direction");
-  if (sensor.name.empty() || sensor.name.find('/') != std::string::npos)
-    table.fail("name", "found '" + sensor.name + "', expected a name without '/'");
-  if (sensor.set.empty() == !sensor.position)
-    table.fail("set", "expected either `set` (a set of the reduced model) or `position`");
-  if (sensor.direction && !(sensor.direction->norm() > 0.0))
-    table.fail("direction", "found a zero vector, expected a direction");
-  return sensor;
+const Keys<LevelReferences>& level_keys() {
+  static const Keys<LevelReferences> keys(
+      "levels", "references of the levels in dB", [](auto& key, LevelReferences& levels) {
+        key.number("velocity_reference", levels.velocity, Range::positive(),
+                   "reference of velocities, by ISO/TS 7849; ISO 1683 has 1e-9")
+            .shown_in("m/s");
+        key.number("acceleration_reference", levels.acceleration, Range::positive(),
+                   "reference of accelerations, by ISO 1683")
+            .shown_in("m/s2");
+      });
+  return keys;
+}
+
+const Keys<OutputRule>& output_keys() {
+  static const Keys<OutputRule> keys(
+      "output", "what the file may do without, where there are many runs",
+      [](auto& key, OutputRule& output) {
+        key.flag("skin", output.skin,
+                 "whether it has the skin's geometry and the faces of the panels");
+        key.flag("samples", output.samples, "whether it has time histories of sensors and panels");
+        key.flag("spectra", output.spectra, "whether it has spectra of the sensors");
+        key.choice("precision", output.single, {{"double", false}, {"single", true}},
+                   "precision of all but times, frequencies and other axes");
+      });
+  return keys;
+}
+
+const Keys<Air>& field_air_keys() {
+  static const Keys<Air> keys("air", "what surrounds the body", [](auto& key, Air& air) {
+    key.part(air, air_keys());
+    key.number("loss_factor", air.loss_factor, Range::positive(),
+               "radiation loss factor of the equivalent radiated power");
+  });
+  return keys;
 }
 
 }  // namespace
+
+const Keys<Air>& air_keys() {
+  static const Keys<Air> keys("air", "what surrounds the body", [](auto& key, Air& air) {
+    key.number("density", air.density, Range::positive(), "density of the air").shown_in("kg/m3");
+    key.number("sound_speed", air.sound_speed, Range::positive(), "speed of sound in it")
+        .shown_in("m/s");
+  });
+  return keys;
+}
+
+const Keys<Options>& field_keys() {
+  static const Keys<Options> keys(
+      "field.toml", "what is recovered of a run; every key is optional",
+      [](auto& key, Options& options) {
+        key.text("body", options.body,
+                 "which body of the run; \"block\" or the only reduced one without it");
+        key.flag("cycle", options.cycle,
+                 "whether the last cycle is analysed: exact lines, half an engine order apart");
+        key.path("sound", options.sound,
+                 "sound file of the part, which gives sound power and microphones; without it "
+                 "there is the equivalent radiated power alone");
+        key.table("spectrum", options.spectrum, band_keys());
+        key.table("air", options.air, field_air_keys());
+        key.table("levels", options.references, level_keys());
+        key.table("frames", options.frames, frame_keys());
+        key.table("lines", options.lines, line_keys());
+        key.table("output", options.output, output_keys());
+        key.tables("window", options.windows, window_keys());
+        key.tables("sensor", options.sensors, sensor_keys());
+        key.tables("panel", options.panels, panel_keys());
+        key.check([](const Config& config, Options& o) {
+          if (!config.files().empty()) o.origin = config.files().front().string();
+          o.cycle_requested = config.has("cycle");
+          o.windows_requested = config.has("window");
+          o.frames_requested = config.has("frames");
+          if (!o.output.skin && (o.frames.on || o.lines.requested() || o.lines.strongest > 0))
+            config.table("output").fail(
+                "skin",
+                "frames and lines need the geometry of the skin: set frames.on = false and "
+                "lines.strongest = 0");
+        });
+      });
+  return keys;
+}
 
 std::vector<std::string> names_of(const Quantities& quantities) {
   std::vector<std::string> names;
@@ -146,66 +259,6 @@ std::vector<std::string> names_of(const Quantities& quantities) {
   if (quantities.acceleration) names.emplace_back("acceleration");
   if (quantities.normal_velocity) names.emplace_back("normal_velocity");
   return names;
-}
-
-Options read_options(const Config& config) {
-  Options options;
-  if (!config.files().empty()) options.origin = config.files().front().string();
-  options.body = config.text_or("body", options.body);
-  if (config.has("sound")) options.sound = config.path("sound");
-  options.cycle_requested = config.has("cycle");
-  options.cycle = config.flag_or("cycle", options.cycle);
-  if (const auto air = config.find_table("air")) {
-    options.air.density = air->number_or("density", options.air.density, Range::positive());
-    options.air.sound_speed =
-        air->number_or("sound_speed", options.air.sound_speed, Range::positive());
-    options.air.loss_factor =
-        air->number_or("loss_factor", options.air.loss_factor, Range::positive());
-  }
-  if (const auto levels = config.find_table("levels")) {
-    LevelReferences& ref = options.references;
-    ref.velocity = levels->number_or("velocity_reference", ref.velocity, Range::positive());
-    ref.acceleration =
-        levels->number_or("acceleration_reference", ref.acceleration, Range::positive());
-  }
-  if (const auto spectrum = config.find_table("spectrum")) {
-    SpectrumBand& band = options.spectrum;
-    band.from_hz = spectrum->number_or("from_hz", band.from_hz, Range::positive());
-    band.to_hz = spectrum->number_or("to_hz", band.to_hz, Range::not_negative());
-    if (band.to_hz > 0.0 && !(band.to_hz > band.from_hz))
-      spectrum->fail("to_hz", fmt::format("found {:g}, expected more than from_hz = {:g}",
-                                          band.to_hz, band.from_hz));
-  }
-  if (const auto frames = config.find_table("frames")) {
-    options.frames_requested = true;
-    read_frames(*frames, options.frames);
-  }
-  if (const auto lines = config.find_table("lines")) read_lines(*lines, options.lines);
-  if (const auto output = config.find_table("output")) {
-    OutputRule& rule = options.output;
-    rule.skin = output->flag_or("skin", rule.skin);
-    rule.samples = output->flag_or("samples", rule.samples);
-    rule.spectra = output->flag_or("spectra", rule.spectra);
-    rule.single = output->choice("precision", {"double", "single"}) == "single";
-    const LineRule& lines = options.lines;
-    if (!rule.skin && (options.frames.on || lines.requested() || lines.strongest > 0))
-      output->fail("skin",
-                   "found false with frames or lines, which need the geometry, expected "
-                   "frames.on = false and lines.strongest = 0");
-  }
-  options.windows_requested = config.has("window");
-  if (options.windows_requested) options.windows.clear();
-  for (const Config& table : config.tables("window")) {
-    options.windows.push_back(read_window(table));
-    for (size_t i = 0; i + 1 < options.windows.size(); ++i)
-      if (options.windows[i].name == options.windows.back().name)
-        table.fail("name", "found '" + options.windows[i].name +
-                               "' a second time, expected different names");
-  }
-  for (const Config& table : config.tables("sensor")) options.sensors.push_back(read_sensor(table));
-  for (const Config& table : config.tables("panel")) options.panels.push_back(read_panel(table));
-  config.finish();
-  return options;
 }
 
 }  // namespace clatter::recover

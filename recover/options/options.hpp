@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The user's options. Each default is defined once, here; --help and the stored configuration are
-// generated from it.
+// The user's options. Each default is defined once, here.
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "core/base/config.hpp"
+#include "core/keys/keys.hpp"
 #include "recover/options/piece.hpp"
 #include "recover/skin/panels.hpp"
 #include "recover/skin/radiated_power.hpp"
@@ -38,7 +37,7 @@ std::vector<std::string> names_of(const Quantities& quantities);
 /// Instants at which the entire skin is written.
 struct FrameRule {
   bool on = true;
-  Span span{-10.0, 60.0};
+  Span span;
   double step = 1.0;  // [deg], or [s] when the span is in seconds
   Quantities quantities{.displacement = true};
 };
@@ -80,13 +79,8 @@ struct Options {
   std::vector<PanelRule> panels;    // empty: default_panels()
 };
 
-/// Reads the entire configuration; unknown keys are rejected.
-Options read_options(const Config& config);
-
-/// All options, defaults included, as TOML that read_options() reads back to the same options.
-std::string resolved_text(const Options& options);
-
-/// Documentation of the configuration file with its defaults, for --help.
-std::string options_help();
+/// The keys of a field.toml, and those of its table [air].
+const keys::Keys<Options>& field_keys();
+const keys::Keys<Air>& air_keys();
 
 }  // namespace clatter::recover

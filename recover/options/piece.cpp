@@ -253,12 +253,12 @@ Piece last_cycle(const RunClock& clock, const std::string& origin) {
 
 Piece window(const RunClock& clock, const WindowRule& rule, const std::string& origin) {
   if (rule.domain == Domain::kAngle) return window_by_angle(clock, rule, origin);
-  const auto& [name, span, taper, domain, segments] = rule;
-  Piece piece{.name = name, .step_s = clock.step_s, .taper = taper};
+  const Span& span = rule.span;
+  Piece piece{.name = rule.name, .step_s = clock.step_s, .taper = rule.taper};
   const Eigen::VectorXd& axis = span.in_seconds ? clock.time : clock.angle_deg;
   if (axis.size() == 0)
     throw InputError(fmt::format(
-        "{}: window '{}': found no crank rotation, expected a span in seconds", origin, name));
+        "{}: window '{}': found no crank rotation, expected a span in seconds", origin, rule.name));
   const double first = axis[0], last = axis[axis.size() - 1];
   const double slack = 1e-6 * (last - first);
   if (!span.in_seconds) piece.ftdc_deg = kCycle * std::floor((last + slack - span.to) / kCycle);
@@ -267,18 +267,18 @@ Piece window(const RunClock& clock, const WindowRule& rule, const std::string& o
   if (from < first - slack || to > last + slack || !(to > from))
     throw InputError(fmt::format(
         "{}: window '{}': found {:g} to {:g} {}, expected a span inside the run, {:g} to {:g}",
-        origin, name, span.from, span.to, span.in_seconds ? "s" : "deg", first, last));
+        origin, rule.name, span.from, span.to, span.in_seconds ? "s" : "deg", first, last));
   piece.first = first_at(axis, from);
   piece.count = std::min<int64_t>(first_at(axis, to) + 1, axis.size()) - piece.first;
   if (piece.count < 2)
     throw InputError(fmt::format("{}: window '{}': found {} samples, expected at least 2", origin,
-                                 name, piece.count));
+                                 rule.name, piece.count));
   piece.first_s = piece.ftdc_s = clock.time[piece.first];
   if (span.in_seconds && clock.has_crank())
     piece.ftdc_deg = kCycle * std::round(clock.angle_deg[piece.first + piece.count / 2] / kCycle);
   if (clock.has_crank()) piece.ftdc_s = clock.time_at(piece.ftdc_deg);
   measure_speed(clock, piece.first, piece.first + piece.count - 1, piece);
-  divide(segments, origin, piece);
+  divide(rule.segments, origin, piece);
   return piece;
 }
 

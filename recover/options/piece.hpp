@@ -2,6 +2,7 @@
 #pragma once
 // Pieces of a run: the last cycle, windows around an event, and the frames to be written.
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace clatter::recover {
 
 /// An interval in crank angle about firing top dead centre or in run time.
 struct Span {
-  double from = 0.0, to = 0.0;  // [deg] about the last firing TDC that fits, or run time [s]
+  double from = -10.0, to = 60.0;  // [deg] about the last firing TDC that fits, or run time [s]
   bool in_seconds = false;
 };
 
@@ -36,10 +37,11 @@ struct SegmentRule {
 /// A window as requested.
 struct WindowRule {
   std::string name = "ftdc";
-  Span span{-10.0, 60.0};
+  Span span{};
   Taper taper = Taper::kTukey;
   Domain domain = Domain::kTime;
   SegmentRule segments{};
+  std::optional<double> cycles{};  // instead of the span, until it is read
 };
 
 /// A range of the run in uniform steps: samples of the run, or values at uniform crank angles

@@ -217,12 +217,12 @@ PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options
   check_limit(model, options);
   const sound::Space space = options.space();
   PartSound out;
-  out.skin = acoustic_skin(model.skin, options.mesh, space.fluid.sound_speed, options.grid.to_hz);
+  out.skin = acoustic_skin(model.skin, options.skin.mesh, space.fluid.sound_speed, options.grid.to_hz);
   clock.lap("acoustic skin");
   const SkinGeometry geometry = measure_skin(model.skin.nodes, model.skin.triangles);
   out.map =
       velocity_map(model.skin, exposed_faces(model.skin.nodes, model.skin.triangles, geometry),
-                   out.skin, options.lids);
+                   out.skin, options.skin.lids);
   const Eigen::MatrixXd velocity = out.map.map * Eigen::MatrixXd(model.skin.T);
   out.face_velocity = triangle_means(velocity);
   clock.lap("map of normal velocity");
@@ -234,7 +234,7 @@ PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options
   place_microphones(options, out.skin, table);
   out.certificate = {.faces = static_cast<double>(out.skin.face_count()),
                      .mesh_limit_hz = sound::mesh_limit_hz(out.skin, space.fluid.sound_speed,
-                                                           options.mesh.edges_per_wavelength),
+                                                           options.skin.mesh.edges_per_wavelength),
                      .lid_area_m2 = out.map.lid_area,
                      .open_edges = open_edges(model.skin),
                      .map_flux_error = out.map.errors.flux,

@@ -165,7 +165,7 @@ void write_sound(H5File& file, const PartSound& sound, const SoundOptions& optio
   file.set("/", "air_density_kg_m3", options.air.density);
   file.set("/", "air_sound_speed_m_s", options.air.sound_speed);
   file.set("/", "lids",
-           options.lids == LidMotion::kRest ? "rigid and at rest"
+           options.skin.lids == LidMotion::kRest ? "rigid and at rest"
                                             : "move with the nearest point of an exposed face");
   file.set("/", "ground", options.ground ? "rigid plane" : "none");
   if (options.ground) {

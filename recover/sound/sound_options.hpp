@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/config.hpp"
+#include "core/keys/keys.hpp"
 #include "core/sound/space.hpp"
 #include "recover/acoustic/acoustic_skin.hpp"
 #include "recover/acoustic/velocity_map.hpp"
@@ -23,30 +23,28 @@ struct GridRule {
   int most = 80;              // frequencies
 };
 
+/// The acoustic skin.
+struct SkinRule {
+  AcousticMesh mesh;
+  LidMotion lids = LidMotion::kRest;
+};
+
 struct SoundOptions {
   std::string origin = "defaults";  // the file with these options
   Air air;                          // its loss factor is not used
-  AcousticMesh mesh;
-  LidMotion lids = LidMotion::kRest;
+  SkinRule skin;
   GridRule grid;
   std::optional<sound::Plane> ground{};
-  std::optional<MicrophoneSet> set{};     // without it engine_1m, or none beside a list
-  std::vector<Microphone> microphones{};  // of the list, in addition to those of the set
+  MicrophoneSet set = MicrophoneSet::kNone;  // none: engine_1m, or none beside a list
+  std::vector<Microphone> microphones{};     // of the list, in addition to those of the set
 
   sound::Space space() const { return {{air.density, air.sound_speed}, ground}; }
   MicrophoneSet chosen_set() const {
-    if (set) return *set;
-    return microphones.empty() ? MicrophoneSet::kEngine1m : MicrophoneSet::kNone;
+    return set == MicrophoneSet::kNone && microphones.empty() ? MicrophoneSet::kEngine1m : set;
   }
 };
 
-/// Reads the entire configuration; unknown keys are rejected.
-SoundOptions read_sound_options(const Config& config);
-
-/// All options, defaults included, as TOML that read_sound_options() reads back.
-std::string resolved_text(const SoundOptions& options);
-
-/// Documentation of the configuration file with its defaults, for --help.
-std::string sound_options_help();
+/// The keys of a sound.toml.
+const keys::Keys<SoundOptions>& sound_keys();
 
 }  // namespace clatter::recover

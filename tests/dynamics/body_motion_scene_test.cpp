@@ -262,9 +262,9 @@ TEST_F(PartMotion, OfPartsThatCannotHaveItIsRefused) {
   expect(body("held.rom.h5", "drive = \"rotr\"\n" + drive),
          "motion.run.toml:3: drive: no [[drive]] \"rotr\" in the scene, found: rotor");
   expect(body("truss.rom.h5", space + "drive = \"rotor\"\n" + drive),
-         "body[0].drive: found with motion = \"space\"");
+         "body[0].drive: needs motion = \"rest\"");
   expect(body("truss.rom.h5", "centre_mm = [0, 0, 0]\n"),
-         "body[0].centre_mm: found without motion = \"space\"");
+         "body[0].centre_mm: needs motion = \"space\"");
   expect(body("truss.rom.h5", space + "model = \"rigid\"\n"), "expected [[rigid_body]] instead");
   expect(body("truss.rom.h5", space + "mode_limit_hz = 100\n"),
          "body[0].mode_limit_hz: found with");

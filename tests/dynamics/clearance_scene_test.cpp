@@ -54,11 +54,11 @@ TEST_F(WarmClearanceScene, LeavesTheGapOfAClearanceBetweenColdSurfaces) {
 
 TEST_F(WarmClearanceScene, IsRefusedBesideAClearanceAndWithoutAny) {
   test::expect_parts(refusal("[contact]\nminimum_warm_clearance_um = 5\n"),
-                     {"changed.run.toml:3: contact.minimum_warm_clearance_um: found it beside "
-                      "clearance_um, expected one of the two"});
+                     {"changed.run.toml:3: contact.minimum_warm_clearance_um: clearance_um and "
+                      "minimum_warm_clearance_um exclude each other"});
   replace_clearance("");
   test::expect_parts(refusal("title = \"neither\"\n"),
-                     {"contact.clearance_um: found neither it nor minimum_warm_clearance_um"});
+                     {"contact.clearance_um: give clearance_um or minimum_warm_clearance_um"});
   test::expect_parts(refusal("[contact]\nminimum_warm_clearance_um = -1\n"),
                      {"contact.minimum_warm_clearance_um: found -1, expected"});
   EXPECT_EQ(refusal("[contact]\nminimum_warm_clearance_um = 5\n"), "accepted");

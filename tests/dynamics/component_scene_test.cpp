@@ -199,13 +199,64 @@ TEST_F(Components, OfTheRegistryAreThoseOfTheReadme) {
   std::string table;
   for (const ComponentKind& kind : component_kinds()) {
     std::string names;
-    for (const std::string& name : kind.tables) names += (names.empty() ? "`" : " `") + name + "`";
+    for (const ComponentKind::Entry& entry : kind.tables)
+      names += (names.empty() ? "`" : " `") + entry.form + "`";
     table += fmt::format("| {} | {} |\n", names, kind.summary);
   }
   EXPECT_NE(readme.str().find("| table | component |\n|---|---|\n" + table + "\n"),
             std::string::npos)
       << "expected in dynamics/README.md:\n"
       << table;
+}
+
+/// InputError where `config` has a key that `table`, or one below it, has not.
+void check_all(const keys::Table& table, const Config& config) {
+  table.check_known(config);
+  for (const keys::Key& key : table.keys()) {
+    if (key.table == nullptr || !config.has(key.name)) continue;
+    if (key.type == keys::Type::kTables)
+      for (const Config& one : config.tables(key.name)) check_all(*key.table, one);
+    else
+      check_all(*key.table, config.table(key.name));
+  }
+}
+
+TEST(SceneTable, HasEveryKeyOfTheSamples) {
+  int found = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(CLATTER_SOURCE_DIR "/samples")) {
+    if (entry.path().string().ends_with(".run.toml")) {
+      EXPECT_NO_THROW(check_all(scene_table(), Config::load_with_base(entry.path())))
+          << entry.path();
+      ++found;
+    }
+  }
+  EXPECT_GE(found, 18);
+  const Config wrong = Config::parse("[contact.oil]\nlow = 1\n", "a.toml");
+  EXPECT_EQ(test::refusal_of([&] { check_all(scene_table(), wrong); }),
+            "a.toml:2: contact.oil.low: unknown key, did you mean law?");
+}
+
+/// Every key and table has a meaning, and every rule names a key of its table.
+void check_described(const keys::Table& table) {
+  for (const keys::Key& key : table.keys()) {
+    EXPECT_FALSE(key.meaning.empty()) << table.name() << "." << key.name;
+    for (const keys::Rule& rule : key.rules)
+      EXPECT_NE(table.find(rule.other), nullptr)
+          << table.name() << "." << key.name << " by " << rule.other;
+    if (key.table != nullptr) check_described(*key.table);
+  }
+  for (const auto& group : table.alternatives())
+    for (const std::string& name : group)
+      EXPECT_NE(table.find(name), nullptr) << table.name() << "." << name;
+}
+
+TEST(SceneTable, DescribesAllKeysAndNamesOnlyThem) {
+  check_described(scene_table());
+  for (const ComponentKind& kind : component_kinds())
+    for (const ComponentKind::Entry& entry : kind.tables)
+      EXPECT_NE(scene_table().find(entry.name()), nullptr) << entry.form;
+  for (const char* key : {"title", "time", "accuracy", "recorded_force"})
+    EXPECT_NE(scene_table().find(key), nullptr) << key;
 }
 
 TEST_F(Components, AreRefusedByTableKeyAndName) {
@@ -220,7 +271,7 @@ TEST_F(Components, AreRefusedByTableKeyAndName) {
          "mechanism.run.toml:3: rigid_bodies: unknown key, did you mean rigid_body?");
   expect(body + "[[bushings]]\n",
          "mechanism.run.toml:7: bushings: unknown key, did you mean bushing?");
-  expect(body + "[small_end]\nexponent = 1\n", "small_end: found without [engine]");
+  expect(body + "[small_end]\nexponent = 1\n", "small_end: needs [engine]");
   expect("",
          "body: found no body, expected [engine] with [piston], or [[body]], [[rigid_body]], "
          "[[valve]], [[shaft]]");

@@ -248,13 +248,14 @@ TEST_F(ContactOil, ContradictionsNameTheirKey) {
   const auto expect = [&](const std::string& changes, const std::string& said) {
     EXPECT_NE(refusal(changes).find(said), std::string::npos) << changes << refusal(changes);
   };
-  expect("[contact]\nfriction_factors = true\n", "contact.friction_factors: found true without");
+  expect("[contact]\nfriction_factors = true\n",
+         "contact.friction_factors: needs flow_factors = true");
   expect("[contact]\nsupply_pressure_bar = 1\n[contact.liner_oil]\n",
-         "contact.supply_pressure_bar: found beside contact.liner_oil");
+         "contact.supply_pressure_bar: supply_pressure_bar and liner_oil exclude each other");
   expect("[contact]\nsupply_fill = 0.5\n[contact.liner_oil]\n",
-         "contact.supply_fill: found beside contact.liner_oil");
+         "contact.supply_fill: supply_fill and liner_oil exclude each other");
   expect("[contact]\nlubrication = \"none\"\n[contact.liner_oil]\n",
-         "contact.liner_oil: found it without a film");
+         "contact.liner_oil: needs lubrication = \"film\"");
   expect("[contact.liner_oil]\ncell_mm = 1e-9\n",
          "contact.liner_oil.cell_mm: found 1e-09, expected 0 (a row of the pad) or at least 0.01");
   expect("[contact.liner_oil]\nwiper = 1\n", "contact.liner_oil.wiper");
@@ -263,7 +264,7 @@ TEST_F(ContactOil, ContradictionsNameTheirKey) {
   expect(
       "[contact.oil]\nlaw = \"walther\"\nwalther_temperature_c = [100, 40]\n"
       "walther_mm2_s = [105, 14.2]\ndensity_kg_m3 = 860\ntemperature_c = 120\n",
-      "contact.oil.walther_temperature_c: found 100 and 40, expected two ascending");
+      "contact.oil.walther_temperature_c: found 40 after 100, expected ascending");
 }
 
 }  // namespace

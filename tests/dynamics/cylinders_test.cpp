@@ -204,7 +204,7 @@ TEST_F(Cylinders, AreRefusedWithTheTableThatIsWrong) {
   expect("[[cylinder]]\n", "cylinder[0].name: found nothing");
   expect("[[cylinder]]\nname = \"a/b\"\n", "cylinder[0].name: found \"a/b\", expected a name");
   expect("[[cylinder]]\nname = \"a\"\n[[cylinder]]\nname = \"a\"\n",
-         "changed.run.toml:5: cylinder[1].name: found a second \"a\"");
+         "changed.run.toml:5: cylinder[1].name: found \"a\" after a cylinder \"a\"");
   expect("[[cylinder]]\nname = \"a\"\nfiring_deg = 1000\n",
          "cylinder[0].firing_deg: found 1000, expected");
   expect("[cylinder]\nname = \"a\"\n", "expected tables [[cylinder]]");

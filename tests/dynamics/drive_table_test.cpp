@@ -154,8 +154,8 @@ TEST_F(DriveTables, AreRefusedByPlace) {
   };
   expect("table = \"speed.csv\"\n", "accepted");
   expect("table = \"speed.csv\"\nspeed_rpm = 90\n",
-         "drive.run.toml:8: drive[0].speed_rpm: found with table, expected one of both");
-  expect("speed_rpm = 90\ncolumn = \"speed\"\n", "drive[0].column: found without table");
+         "drive.run.toml:7: drive[0].table: speed_rpm and table exclude each other");
+  expect("speed_rpm = 90\ncolumn = \"speed\"\n", "drive[0].column: needs table");
   expect("table = \"short.csv\"\n",
          "short.csv:3: the table covers 0 to 0.2 s, expected 0 to 0.5 s");
   expect("table = \"force.csv\"\n",
@@ -164,11 +164,11 @@ TEST_F(DriveTables, AreRefusedByPlace) {
   expect("table = \"one.csv\"\n", "one.csv:2: found one row, expected at least two");
   expect("", "drive[0].speed_rpm: ");
   const std::string torque = "[[drive.order]]\norder = 1\ntorque_n_m = 1\n";
-  expect("speed_rpm = 90\n" + torque, "drive[0].inertia_kg_m2: found nothing");
+  expect("speed_rpm = 90\n" + torque, "drive[0].inertia_kg_m2: is missing");
   expect("speed_rpm = 0\ninertia_kg_m2 = 1\n" + torque,
          "drive[0].speed_rpm: found 0 with orders of a torque");
   expect("speed_rpm = 90\ninertia_kg_m2 = 1\n" + torque + "amplitude_rpm = 1\n",
-         "drive[0].order[0].amplitude_rpm: found with torque_n_m, expected one of both");
+         "drive[0].order[0].torque_n_m: amplitude_rpm and torque_n_m exclude each other");
 }
 
 }  // namespace

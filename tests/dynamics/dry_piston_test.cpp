@@ -120,9 +120,11 @@ TEST(RigidDryPiston, MovesOnTheSamplesRodAndGasLikeTheConstrainedMechanism) {
   Scene scene;
   scene.clock = CrankClock{2000.0 * std::numbers::pi / 30.0};
   CylinderSpec cylinder;
-  cylinder.engine =
-      EngineSpec{*scene.clock,       0.130, 0.0, false, RodProperties{0.210, 2.2, 0.02, 0.07}, 0.0,
-                 Rotation::kForward, {}};
+  cylinder.engine = EngineSpec{{0.130, 0.0, false, Rotation::kForward, {}},
+                               *scene.clock,
+                               RodProperties{0.210, 2.2, 0.02, 0.07},
+                               0.0,
+                               {}};
   PistonSpec& piston = cylinder.piston;
   piston.name = "piston";
   piston.elastic = false;

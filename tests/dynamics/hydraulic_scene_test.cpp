@@ -256,7 +256,7 @@ TEST_F(HydraulicScenes, AreRefusedWithPlaceAndReason) {
   expect(chain("supply_table = \"force.csv\"\n"), "force is in [N], expected a unit of [Pa]");
   std::string twisted = chain("");
   twisted.replace(twisted.rfind("axis = [1, 0, 0]"), 16, "axis = [0, 0, 0]");
-  expect(twisted, "tensioner[0].axis: found a vector without length");
+  expect(twisted, "tensioner[0].axis: found length 0, expected a direction");
   const std::string slide =
       "[time]\nend_s = 1\n[[rigid_body]]\nname = \"s\"\nmotion = \"slide\"\nmass_kg = 1\n";
   expect(slide, "rigid_body[0].axis");

@@ -146,7 +146,7 @@ TEST_F(JointLaws, AreRefusedByWhatIsWrong) {
   expect(end + "friction_coefficient = 0.1\n", {"small_end.diameter_mm"});
   expect(end + "friction_table = \"load.csv\"\n", {"load.csv:2: moment: found 1 at 0 first"});
   expect(end + "friction_table = \"load.csv\"\nfriction_coefficient = 0.1\n",
-         {"friction_table: found beside friction_coefficient"});
+         {"friction_table: friction_table and friction_coefficient exclude each other"});
   const std::string film = end + "model = \"moes\"\ndiameter_mm = 40\nviscosity_mpa_s = 8\n";
   expect(film + "width_mm = 60\n", {"width_mm: found 60, which is 1.5 of the diameter"});
   expect(film + "width_mm = 20\nclearance_um = 0\n", {"clearance_um: found 0"});

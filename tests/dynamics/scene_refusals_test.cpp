@@ -55,13 +55,15 @@ TEST_F(SceneRefusals, NameTheKeyOfAContradiction) {
   const std::string recess = "[[contact.recess]]\nheight_mm = [-30, 0]\n";
   expect("[[contact.recess]]\nheight_mm = [1]\n",
          "changed.run.toml:3: contact.recess[0].height_mm");
-  expect("[[contact.recess]]\nheight_mm = [1, 0]\n", "height_mm: found 0 after 1, expected more");
+  expect("[[contact.recess]]\nheight_mm = [1, 0]\n",
+         "height_mm: found 0 after 1, expected ascending values");
   expect("[[contact.recess]]\nheight_mm = [0, 2e4]\n",
-         "height_mm: found 20000, expected -10000 to 10000");
+         "height_mm: found 20000, expected at least -10000 and at most 10000");
   expect(recess + "angle_deg = [0, 400]\n", "angle_deg: found a span of 400, expected at most 360");
   expect(recess + "pressure_bar = 1\nfill = 0.5\n", "fill: found 0.5 under pressure, expected 1");
   expect(recess + "pressure_bar = -1\n", "pressure_bar: found -1, expected");
-  expect(recess + "kind = \"window\"\nfill = 0.5\n", "fill: found in a window, expected only in");
+  expect(recess + "kind = \"window\"\nfill = 0.5\n",
+         "fill: needs kind = \"groove\": a window is a part of the skirt");
   expect(recess + "kind = \"hole\"\n", "contact.recess[0].kind: ");
   expect(recess + "on = \"rod\"\n", "contact.recess[0].on: ");
   expect("[contact]\nspan = \"half\"\n", "changed.run.toml:3: contact.span: ");

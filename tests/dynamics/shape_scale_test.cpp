@@ -94,7 +94,7 @@ TEST_F(ShapeScale, IsRefusedByWhatIsWrong) {
   expect(shape("bore_shape", "scale = \"gas\"\n"), {"contact.bore_shape[0].at_bar"});
   expect(shape("bore_shape", "scale = \"gas\"\nat_bar = 0\n"), {"at_bar: found 0"});
   expect(shape("skirt_shape", gas + "scale_table = \"one.csv\"\n"),
-         {"contact.skirt_shape[0].scale_table: found beside scale"});
+         {"contact.skirt_shape[0].scale_table: scale_table and scale exclude each other"});
   expect(shape("skirt_shape", "scale = \"heat\"\n"), {"scale: found \"heat\""});
   std::ofstream(folder_ / "unit.csv")
       << "crank_angle [deg], scale [bar]\n-360, 1\n-180, 1\n0, 1\n180, 1\n";

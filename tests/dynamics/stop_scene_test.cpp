@@ -276,19 +276,19 @@ TEST_F(Stops, AreRefusedByKeyAndPlace) {
   };
   EXPECT_EQ(refusal(body + points + up + "restitution = 0.5\n"), "accepted");
   EXPECT_EQ(refusal(body + points + up + "stiffness_n_m = 1e6\n"), "accepted");
-  expect(points + up, "stop[0].stiffness_n_m: found neither this nor restitution");
+  expect(points + up, "stop[0].stiffness_n_m: give stiffness_n_m or restitution");
   expect(points + "normal = [0, 0, 0]\nrestitution = 1\n",
          "stop.run.toml:11: stop[0].normal: found length 0, expected a direction");
   expect(points + up + "restitution = 1.5\n", "stop[0].restitution: found 1.5, expected");
   expect(points + up + "restitution = 1\nstiffness_n_m = 1e6\n",
-         "stop.run.toml:13: stop[0].stiffness_n_m: found with restitution");
+         "stop.run.toml:12: stop[0].restitution: stiffness_n_m and restitution exclude each other");
   expect(points + up + "restitution = 1\nfriction = 0.1\n",
-         "stop[0].friction: found with restitution, whose contact is rigid and without friction");
+         "stop[0].friction: needs stiffness_n_m: a rigid contact has neither depth nor friction");
   expect(points + up + "stiffness_n_m = 1e6\nrest_stiffness_n_m = 1e6\n",
-         "stop[0].rest_stiffness_n_m: found without restitution");
+         "stop[0].rest_stiffness_n_m: needs restitution");
   expect(points + up + "stiffness_n_m = 1e6\nexponent = 0.5\n", "stop[0].exponent: found 0.5");
   expect(points + up + "stiffness_n_m = 1e6\nstatic_friction = 0.5\n",
-         "stop[0].static_friction: found without friction");
+         "stop[0].static_friction: needs friction");
   expect(points + up + "stiffness_n_m = 1e6\nfriction = 0.5\nstatic_friction = 0.4\n",
          "stop[0].static_friction: found 0.4, expected at least friction, 0.5");
   expect("a = { body = \"ball\", at_mm = [0, 0, -2] }\nb = { at_mm = [0, 0, 0] }\n" + up +

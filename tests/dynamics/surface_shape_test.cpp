@@ -24,7 +24,10 @@ class SurfaceShape : public testing::SlapScenes {
  protected:
   std::vector<film::LinerShape> shapes(const std::string& entries) {
     std::ofstream(folder_ / "contact.toml") << entries;
-    return read_surface_shapes(Config::load(folder_ / "contact.toml"), "bore_shape").shapes;
+    std::vector<film::LinerShape> found;
+    for (const Config& table : Config::load(folder_ / "contact.toml").tables("bore_shape"))
+      found.push_back(shape_keys().read(table).shape);
+    return found;
   }
 
   /// A shape file about an axis at z = 0.1 m: order 2 of 10 um, largest toward +y, growing with the
@@ -140,11 +143,11 @@ TEST_F(SurfaceShape, AreRefusedByWhatIsWrong) {
   };
   test::expect_parts(refused("file = \"bore.shape.h5\"\ncase = \"cold\"\n"),
                      {"contact.toml:3", "case: found \"cold\", expected one of", "thermal"});
-  test::expect_parts(refused("factor = 1\n"), {"found 0 of file, table and order"});
+  test::expect_parts(refused("factor = 1\n"), {"give file or table or order"});
   test::expect_parts(refused("order = 2\nheight_mm = [2, 1]\namplitude_um = [1, 2]\n"),
                      {"height_mm: found 1 after 2, expected ascending values"});
   test::expect_parts(refused("order = 2\nheight_mm = [1, 2]\namplitude_um = [1]\n"),
-                     {"amplitude_um: found 1 values, expected one for each of 2 heights"});
+                     {"amplitude_um: found 1 values, expected as many as height_mm, 2"});
   test::expect_parts(refused("order = 2\nheight_mm = [1]\namplitude_um = [1e5]\n"),
                      {"factor: found deviations of 100 mm, expected at most 10"});
 }

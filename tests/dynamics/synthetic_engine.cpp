@@ -36,14 +36,12 @@ film::PistonLinerOptions contact_of(const EngineVariant& variant) {
 
 SyntheticEngine::SyntheticEngine(const EngineVariant& variant) {
   scene.clock = CrankClock{2000.0 * std::numbers::pi / 30.0};
-  cylinder.engine = EngineSpec{*scene.clock,
-                               0.130,
-                               variant.pin_offset,
-                               variant.balanced,
-                               RodProperties{0.210, 2.2, 0.02, 0.07},
-                               0.0,
-                               Rotation::kForward,
-                               {}};
+  cylinder.engine =
+      EngineSpec{{0.130, variant.pin_offset, variant.balanced, Rotation::kForward, {}},
+                 *scene.clock,
+                 RodProperties{0.210, 2.2, 0.02, 0.07},
+                 0.0,
+                 {}};
   PistonSpec& piston = cylinder.piston;
   piston.name = "piston";
   piston.elastic = variant.elastic_piston;

@@ -8,7 +8,7 @@ namespace {
 
 ValveSpec valve_of(const std::string& text) {
   const Config root = Config::parse(text, "valve.toml");
-  ValveSpec spec = read_valve(root.tables("valve").front());
+  ValveSpec spec = valve_keys().read(root.tables("valve").front());
   root.finish();
   return spec;
 }

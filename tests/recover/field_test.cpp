@@ -32,7 +32,7 @@ MotionLaw turning(const RunPlan& plan, double order) {
 
 std::filesystem::path recover_file(const std::filesystem::path& run, const std::string& config) {
   const Config parsed = Config::parse(config, "test");
-  const Options options = read_options(parsed);
+  const Options options = field_keys().read(parsed);
   const RunBody body(run, options.body);
   const rom::ReducedModel model = body.read_model();
   const auto path = run.parent_path() / "out.field.h5";

@@ -32,7 +32,7 @@ inline rom::ReducedModel sphere_model() {
 
 inline SoundOptions sphere_options() {
   SoundOptions options;
-  options.mesh = {.opening = 0.05, .edges_per_wavelength = 8.0};
+  options.skin.mesh = {.opening = 0.05, .edges_per_wavelength = 8.0};
   options.grid = {.from_hz = 300.0, .to_hz = 700.0, .tolerance_db = 1.0};
   options.set = MicrophoneSet::kEngine1m;
   options.microphones = {{"beside", {0.6, 0, 0}}, {"above", {0, 0, 1.0}}};
@@ -80,7 +80,7 @@ class SoundRun : public ::testing::Test {
   const Eigen::Vector2d kMotion{1e-6, 2e-6};
   Summary recovered(const std::string& toml) {
     std::ofstream(folder_ / "field.toml") << toml;
-    const Options options = read_options(Config::load(folder_ / "field.toml"));
+    const Options options = field_keys().read(Config::load(folder_ / "field.toml"));
     const RunBody body(folder_ / "run.h5", "");
     H5File file = H5File::create(folder_ / "field.h5");
     StepClock clock;

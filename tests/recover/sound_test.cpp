@@ -132,19 +132,19 @@ TEST(PartSound, MicrophoneInsideAndFrequencyAboveTheBasisAreRefused) {
 
 TEST(SoundOptions, ResolvedTextReadsBackAndBadKeysAreRefused) {
   SoundOptions options = sphere_options();
-  options.lids = LidMotion::kNearest;
+  options.skin.lids = LidMotion::kNearest;
   options.ground = sound::Plane{Eigen::Vector3d::UnitZ(), -0.5};
-  const std::string text = resolved_text(options);
-  EXPECT_EQ(resolved_text(read_sound_options(Config::parse(text, "x.toml"))), text);
+  const std::string text = sound_keys().toml_of(options);
+  EXPECT_EQ(sound_keys().toml_of(sound_keys().read(Config::parse(text, "x.toml"))), text);
   const auto refusal = [](const char* toml) {
-    return test::refusal_of([&] { read_sound_options(Config::parse(toml, "x.toml")); });
+    return test::refusal_of([&] { sound_keys().read(Config::parse(toml, "x.toml")); });
   };
   test::expect_parts(refusal("[grid]\nto_hz = 10"), {"x.toml:2", "to_hz", "more than from_hz"});
   test::expect_parts(refusal("[skin]\nopenings = 1"), {"x.toml:2", "openings", "opening"});
   test::expect_parts(refusal("microphones = 'engine'"), {"x.toml:1", "microphones", "engine_1m"});
   test::expect_parts(refusal("[[microphone]]\nname = 'a'\nposition = [0, 0, 2]\n"
                              "[[microphone]]\nname = 'a'\nposition = [0, 0, 3]"),
-                     {"x.toml:5", "found 'a' twice"});
+                     {"x.toml:5", "found \"a\" twice"});
 }
 
 TEST_F(SoundRun, PowerAndPressureOfALineAreThoseOfTheTable) {

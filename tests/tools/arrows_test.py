@@ -18,23 +18,24 @@ BUILD = pathlib.Path(os.environ.get("CLATTER_BUILD", SOURCE / "build/release"))
 LIBRARIES = {
     "core/base": set(),
     "core/dense": set(),
+    "core/keys": {"core/base"},
     "core/mesh": {"core/base"},
     "core/rom": {"core/base"},
     "core/run": set(),
-    "core/sparse": {"core/base", "core/dense"},
+    "core/sparse": {"core/base", "core/dense", "core/keys"},
     "core/sound": {"core/base", "core/dense"},
-    "core/fe": {"core/base", "core/dense", "core/mesh", "core/rom"},
-    "core/modes": {"core/base", "core/dense", "core/mesh", "core/rom", "core/fe", "core/sparse"},
+    "core/fe": {"core/base", "core/dense", "core/keys", "core/mesh", "core/rom"},
+    "core/modes": {"core/base", "core/dense", "core/keys", "core/mesh", "core/rom", "core/fe", "core/sparse"},
     "core/ranks": {"core/base", "core/dense", "core/mesh", "core/rom", "core/fe", "core/sparse"},
 }
 # Stages: each is one program, writes files for the next one, and uses no other stage.
 STAGES = {
-    "mesh": {"core/base", "core/mesh"},
-    "assembly": {"core/base", "core/dense", "core/mesh", "core/rom", "core/fe", "core/sparse"},
+    "mesh": {"core/base", "core/keys", "core/mesh"},
+    "assembly": {"core/base", "core/dense", "core/keys", "core/mesh", "core/rom", "core/fe", "core/sparse"},
     "modal": set(LIBRARIES) - {"core/run", "core/sound"},
     "condense": set(LIBRARIES) - {"core/run", "core/sound"},
-    "dynamics": {"core/base", "core/dense", "core/rom", "core/run"},
-    "recover": {"core/base", "core/dense", "core/rom", "core/run", "core/sound"},
+    "dynamics": {"core/base", "core/dense", "core/keys", "core/rom", "core/run"},
+    "recover": {"core/base", "core/dense", "core/keys", "core/rom", "core/run", "core/sound"},
 }
 ALLOWED = LIBRARIES | STAGES
 # Library targets that are not named after the folder of their stage.

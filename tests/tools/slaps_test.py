@@ -109,12 +109,12 @@ class Study(unittest.TestCase):
             with self.assertRaisesRegex(BadArtefact, said):
                 parameters.read(self.folder / "wrong.toml")
 
-        refused("[[parameter]]\nname = 'a'\n", r"parameter\[0\].values: not found, expected it")
-        refused("[[parameter]]\nname = 'a'\nvalue = [1]\n", r"parameter\[0\].value: unknown key, expected one of")
-        refused("[[parameter]]\nname = 'a'\nvalues = [true]\nkeys = {a = '{}'}\n", r"values: found \[True\], expected at most 1000 numbers or texts")
+        refused("[[parameter]]\nname = 'a'\n", r"parameter\[0\].values: found nothing, expected a list")
+        refused("[[parameter]]\nname = 'a'\nvalue = [1]\n", r"parameter\[0\].value: unknown key, did you mean values\?")
+        refused("[[parameter]]\nname = 'a'\nvalues = [true]\nkeys = {a = '{}'}\n", r"values: found \[True\], expected 1 to 1000 numbers or texts")
         refused("[[parameter]]\nname = 'a'\nvalues = [1, 1]\nkeys = {a = '{}'}\n", "found two scenes a_1")
-        refused("[[parameter]]\nname = 'a'\nvalues = [1]\nkeys = {a = 1}\n", r"keys.a: found 1, expected a text with \{\} for the value")
-        refused("a = 1\n", r"found a, expected \[\[parameter\]\] tables only")
+        refused("[[parameter]]\nname = 'a'\nvalues = [1]\nkeys = {a = 1}\n", r"keys: found \{.a.: 1\}, expected texts by name")
+        refused("a = 1\n", r"wrong.toml: a: unknown key, did you mean parameter")
         self.assertIn("found several values beside --parameters", self.run_command("sweep", "slap.run.toml", "a.b=1,2", "--parameters", "parameters.toml", code=2).stderr)
         self.assertIn("found neither key=values nor --parameters", self.run_command("sweep", "slap.run.toml", code=2).stderr)
         self.sweep()

@@ -12,6 +12,7 @@ import synthetic
 
 from clatter_tools import slap
 from clatter_tools.artefact import BadArtefact
+from clatter_tools.keys import rows, study_keys
 from clatter_tools.study import convergence, effect_keys, effects, plan, quantities, toml_text
 
 
@@ -118,8 +119,14 @@ class Onset(unittest.TestCase):
 
     def test_its_part_has_a_range(self):
         for part in (0.0, 1.1, -1):
-            with self.assertRaisesRegex(BadArtefact, "part: found .*, expected a number above 0, at most 1"):
-                quantities.own_keys("study.toml: quantity[0]", {"take": "slap_time", "part": part}, {"take"})
+            with self.assertRaisesRegex(BadArtefact, "part: found .*, expected a number above 0 at most 1"):
+                rows.check("study.toml", {"name": "a", "file": "b.h5", "take": "slap_time", "part": part}, study_keys.QUANTITY)
+
+    def test_a_key_of_another_kind_is_refused(self):
+        with self.assertRaisesRegex(BadArtefact, "quantity\\[0\\].chain: no key of loss, which has element"):
+            quantities.own_keys("study.toml: quantity[0]", {"take": "loss", "element": "a", "chain": "b"})
+        with self.assertRaisesRegex(BadArtefact, "quantity\\[0\\].element: found nothing, loss needs it"):
+            quantities.own_keys("study.toml: quantity[0]", {"take": "loss"})
 
 
 class Values(unittest.TestCase):

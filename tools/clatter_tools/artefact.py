@@ -6,13 +6,7 @@ import pathlib
 
 import h5py
 
-
-class BadArtefact(Exception):
-    """A file that is missing, damaged or of another kind: one line for the user."""
-
-
-class CannotWrite(Exception):
-    """A file or disk error: one line for the user."""
+from .errors import BadArtefact, CannotWrite
 
 
 def text(value):

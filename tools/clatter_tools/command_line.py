@@ -11,6 +11,7 @@ import sys
 from . import collect, drive_command, export_command, fired_cycle, info, levels, motored_cycle, predict, report, slaps, sweep
 from .artefact import BadArtefact, CannotWrite
 from .integrity import is_damage
+from .keys import command as keys_command
 from .study import command as study
 from .study.run import Failed
 
@@ -56,6 +57,7 @@ def parser():
     fired_cycle.add_arguments(one)
     one = commands.add_parser("predict", help="say what the reduction of a part by several processes will cost")
     predict.add_arguments(one)
+    keys_command.add_arguments(commands)
     one = commands.add_parser("rules", help="print the path of clatter.mk, for `include`")
     one.add_argument("--snakemake", action="store_true", help="of clatter.smk instead, for a Snakefile")
     return top
@@ -170,6 +172,10 @@ def run_command(options, rules):
             fired_cycle.write_fired_cycle(options)
         elif options.command == "predict":
             return predict.run(options)
+        elif options.command == "keys":
+            keys_command.print_keys(options)
+        elif options.command == "schema":
+            keys_command.print_schema(options)
         elif options.command == "rules":
             print(pathlib.Path(rules).with_suffix(".smk") if options.snakemake else rules)
     except BadArtefact as error:

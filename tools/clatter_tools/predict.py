@@ -1,11 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter predict`: what a reduction by several processes will cost; `clatter-condense predict` under the name of the tools."""
-import pathlib
-import shutil
 import subprocess
-import sys
 
-from .artefact import BadArtefact
+from .keys import files
 
 PROGRAM = "clatter-condense"
 
@@ -19,21 +16,9 @@ def add_arguments(command):
     command.add_argument("--json", action="store_true", help="one line of JSON, with the counts of each rank")
 
 
-def program():
-    """The stage beside this program, in the build of the source tree, or in PATH."""
-    here = pathlib.Path(sys.argv[0]).resolve().parent
-    for path in (here / PROGRAM, here.parent / "build/release/bin" / PROGRAM):
-        if path.exists():
-            return path
-    found = shutil.which(PROGRAM)
-    if found is None:
-        raise BadArtefact(f"predict: {PROGRAM} was not found beside this program or in PATH; build it (make build)")
-    return found
-
-
 def run(options):
     """Runs the stage's command; returns its exit code."""
-    command = [program(), "predict", options.model, "--ranks", options.ranks]
+    command = [files.program(PROGRAM), "predict", options.model, "--ranks", options.ranks]
     if options.config:
         command += ["-c", options.config]
     if options.gflops:

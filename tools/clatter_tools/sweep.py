@@ -10,6 +10,7 @@ import tomllib
 
 from . import parameters
 from .artefact import BadArtefact, CannotWrite
+from .keys.schema_line import schema_line
 from .whole_file import whole_file
 
 MOST = 100_000  # scenes
@@ -84,9 +85,13 @@ def file_names(combinations):
     return names
 
 
+def without_schema(text):
+    return re.sub(r"\A#:schema .*\n", "", text)
+
+
 def write_changed(path, text):
-    """Writes a file, complete or not at all, unless it has this text already, so that make sees only what is new."""
-    if path.exists() and path.read_text(encoding="utf-8") == text:
+    """Writes a file, complete or not at all, unless it has this text already but for its schema, so that make sees only what is new."""
+    if path.exists() and without_schema(path.read_text(encoding="utf-8")) == without_schema(text):
         return
     with whole_file(path) as part:
         part.write_text(text, encoding="utf-8")
@@ -120,7 +125,7 @@ def write_scenes(base, folder, texts, field, own_fields):
     folder.mkdir(parents=True, exist_ok=True)
     first = f"base = {literal(os.path.relpath(base, folder))}\n"
     for name, text in texts.items():
-        write_changed(folder / f"{name}.run.toml", first + text)
+        write_changed(folder / f"{name}.run.toml", schema_line("run.toml") + first + text)
     rules = FRAGMENT.format(name=folder.name, folder=folder, names=" ".join(texts))
     for settings in dict.fromkeys([field, *own_fields.values()] if field else own_fields.values()):
         same = [name for name in texts if own_fields.get(name, field) == settings]

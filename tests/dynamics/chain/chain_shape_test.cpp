@@ -152,7 +152,7 @@ TEST_F(ChainShape, IntervalsThatMeanNothingAreRefused) {
   };
   refused(running("shape_every_us = -1", 1e-3), {"drive.run.toml:", "shape_every_us: found -1"});
   refused(running("shape_every_us = 10\nshape_every_deg = 1", 1e-3),
-          {"shape_every_deg: found shape_every_us too, expected one of them"});
+          {"shape_every_deg: shape_every_deg and shape_every_us exclude each other"});
   TimingDrive rest = running("shape_every_deg = 1", 1e-3);
   rest.rpm = 0.0;
   refused(rest, {"drive.run.toml:", "shape_every_deg: crank does not turn at the start"});

@@ -261,7 +261,7 @@ TEST_F(TimingDriveScene, PitchesByTableAreThoseOfTheLinksInTurn) {
   };
   const std::string table = "pitch_table = \"pitches.csv\"\n";
   expect(table + "pitch_errors_um = [1]\n",
-         "chain[0].pitch_errors_um: found with pitch_table, expected one of both");
+         "chain[0].pitch_table: pitch_table and pitch_errors_um exclude each other");
   write(129, "link [1], error [um]", 0);
   expect(table, "pitches.csv:130: found 129 rows, expected 130, a row for each link");
   write(130, "link [1], error [um]", 1);

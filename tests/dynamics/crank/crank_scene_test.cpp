@@ -192,8 +192,8 @@ TEST_F(CrankScenes, AreRefusedWithTheKeyThatIsWrong) {
   const std::string plain = std::string("model = \"film\"\n") + kPlain;
   EXPECT_EQ(refusal(in_bearings(plain)), "accepted");
   EXPECT_EQ(refusal(free_crank(1.0)), "accepted");
-  expect("[crank]\nmass_kg = 40\n", "crank.bearing: found none, and the speed is prescribed");
-  expect("[crank]\nspeed = \"free\"\n", "crank.polar_kg_m2: found nothing");
+  expect("[crank]\npolar_kg_m2 = 40\n", "crank.bearing: found none, and the speed is prescribed");
+  expect("[crank]\nspeed = \"free\"\n", "crank.polar_kg_m2: is missing, speed = \"free\" needs it");
   expect(free_crank(-1.0), "crank.polar_kg_m2: found -1, expected");
   expect(in_bearings("stiffness_n_m = -1\n"), "crank.bearing[0].stiffness_n_m: found -1, expected");
   expect(in_bearings(std::string("model = \"moes\"\n") + "diameter_mm = 85\nwidth_mm = 30\n" +
@@ -209,13 +209,13 @@ TEST_F(CrankScenes, AreRefusedWithTheKeyThatIsWrong) {
       "[[crank.bearing]]\nname = \"b\"\nstiffness_n_m = 1e8\n",
       "crank.bearing[0].at_mm: found nothing, expected the bearing's x");
   expect(in_bearings(plain) + "[[crank.bearing]]\nname = \"b1\"\nat_mm = 0\nstiffness_n_m = 1e8\n",
-         "crank.bearing[2].name: found a second \"b1\"");
+         "crank.bearing[2].name: found \"b1\" after a bearing \"b1\"");
   expect(in_bearings(plain) + "[crank.load]\ntorque_n_m = 3\n",
-         "crank.load: found with a prescribed");
+         "crank.load: needs speed = \"free\": with a prescribed speed the torque is a result");
   expect(free_crank(1.0) + "[[crank.unbalance]]\nat_mm = 0\nmoment_kg_m = 1\n",
-         "crank.unbalance: found without [[crank.bearing]]");
+         "crank.unbalance: needs bearing");
   expect(free_crank(1.0) + "[crank.load]\nlaw = \"constant\"\n",
-         "crank.load.torque_n_m: found nothing");
+         "crank.load.torque_n_m: is missing, law = \"constant\"");
   const std::string elastic = testing::kElasticBlock;
   expect(elastic + in_bearings(plain),
          "crank.bearing[0].set: found nothing, expected a set of the block");

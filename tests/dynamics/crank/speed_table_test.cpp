@@ -137,7 +137,7 @@ lubrication = "none"
   // The mean of 1 / speed: 2000 sqrt(1 - (60/2000)^2) rpm.
   EXPECT_NEAR(described.clock->cycle(), cycle / std::sqrt(1.0 - 9e-4), 1e-6 * cycle);
   EXPECT_NE(refusal("[engine]\nspeed_table = \"speed.csv\"\n")
-                .find("engine.speed_rpm: found with speed_table, expected one of both"),
+                .find("speed_rpm and speed_table exclude each other"),
             std::string::npos);
 }
 

@@ -125,7 +125,7 @@ TEST_F(Rings, AreRefusedByWhatIsWrong) {
   const std::string ring = "[[contact.ring]]\nheight_mm = 50\nface_radius_mm = 20\n";
   test::expect_parts(refusal(ring), {"contact.ring[0].load_n_mm"});
   test::expect_parts(refusal(ring + "load_n_mm = 1\ntangential_force_n = 20\n"),
-                     {"tangential_force_n: found beside load_n_mm, expected one of the two"});
+                     {"tangential_force_n: load_n_mm and tangential_force_n exclude each other"});
   test::expect_parts(refusal(ring + "load_n_mm = 1\ngas_share = 0.5\n"), {"width_mm"});
   test::expect_parts(refusal(ring + "load_n_mm = 1\ngas_share = 1.5\n"),
                      {"gas_share: found 1.5, expected"});
@@ -137,10 +137,11 @@ TEST_F(Rings, AreRefusedByWhatIsWrong) {
       {"ring[1].gas_share: found 0.2 below a ring with 0"});
   test::expect_parts(refusal(lower + "load_n_mm = 1\nthickness_mm = 60\n"),
                      {"thickness_mm: found 60, expected below the bore's radius, 53.5"});
-  test::expect_parts(refusal("[[contact.ring]]\nheight_mm = 20\n"),
-                     {"height_mm: found 20, expected above skirt_top_mm, 25"});
+  test::expect_parts(
+      refusal("[[contact.ring]]\nheight_mm = 20\nface_radius_mm = 20\nload_n_mm = 1\n"),
+      {"height_mm: found 20, expected above skirt_top_mm, 25"});
   test::expect_parts(refusal("[contact.liner_oil]\n[[contact.liner_oil.ring]]\nheight_mm = 50\n"),
-                     {"contact.liner_oil.ring: found here, expected [[contact.ring]]"});
+                     {"contact.liner_oil.ring: unknown key"});
 }
 
 struct NumberKey {

@@ -339,7 +339,7 @@ TEST_F(Valves, RefusalsSayWhatIsWrong) {
   test::expect_parts(with("", "[valve.lash_adjuster]\nstops_mm = [-3, 2]\n"),
                      {"stops_mm", "-3", "0.15 cm3"});
   test::expect_parts(with("", "[valve.lash_adjuster]\nstart_travel_mm = 1\n"),
-                     {"start_travel_mm", "travel 0"});
+                     {"start_travel_mm", "unknown key"});
   std::string text = one_valve({});
   text.replace(text.find("body = \"cam\""), 12, "body = \"cum\"");
   test::expect_parts(refusal(text), {"valve.run.toml:", "cum", "cam"});

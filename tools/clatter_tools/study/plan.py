@@ -5,14 +5,10 @@ import pathlib
 import tomllib
 
 from ..artefact import BadArtefact
+from ..keys import rows, study_keys
 from . import quantities
 
 MOST_VALUES = 100
-REFERENCES = ("auto", "finest", "richardson")
-COSTS = ("seconds", "processor")
-TOP = {"pipeline", "check", "reuse", "cost", "setting", "quantity", "effect"}
-EFFECT = {"name", "key", "keys", "off", "on"}
-SETTING = {"name", "unit", "key", "keys", "values", "base", "reference", "sizes"}
 
 
 @dataclasses.dataclass
@@ -78,27 +74,17 @@ def read(path, required="setting"):
     if path.suffix != ".toml":
         raise BadArtefact(f"{path}: found this name, expected one that ends in .toml")
     table = read_toml(path)
-    check_keys(f"{path}", table, TOP)
-    if not isinstance(table.get("pipeline", "."), str):
-        raise BadArtefact(f"{path}: pipeline: found {table['pipeline']!r}, expected a folder as text")
+    rows.check(f"{path}", table, study_keys.STUDY)
     pipeline = path.parent / table.get("pipeline", ".")
     if not (pipeline / "Makefile").is_file():
         raise BadArtefact(f"{path}: pipeline: found no Makefile in {pipeline}, expected a folder with one")
-    entries = {}
-    for kind in ("setting", "quantity", "effect"):
-        entries[kind] = table.get(kind, [])
-        if not isinstance(entries[kind], list) or not all(isinstance(one, dict) for one in entries[kind]) or \
-                (not entries[kind] and kind in (required, "quantity")):
+    entries = {kind: table.get(kind, []) for kind in ("setting", "quantity", "effect")}
+    for kind in (required, "quantity"):
+        if not entries.get(kind, True):
             raise BadArtefact(f"{path}: found no [[{kind}]], expected at least one")
-    cost = table.get("cost", COSTS[0])
-    switches = {"check": table.get("check", True), "reuse": table.get("reuse", False)}
-    for key, value in switches.items():
-        if not isinstance(value, bool):
-            raise BadArtefact(f"{path}: {key}: found {value!r}, expected true or false")
-    if cost not in COSTS:
-        raise BadArtefact(f"{path}: cost: found {cost!r}, expected {' or '.join(COSTS)}")
-    if switches["reuse"] and cost != COSTS[0]:
-        raise BadArtefact(f"{path}: reuse: found true beside cost = {cost!r}, expected cost = {COSTS[0]!r}: of artefacts that are taken over no other is known")
+    check, reuse, cost = table.get("check", True), table.get("reuse", False), table.get("cost", "seconds")
+    if reuse and cost != "seconds":
+        raise BadArtefact(f"{path}: reuse = true needs cost = \"seconds\": of artefacts that are taken over no other cost is known")
     settings = [setting(f"{path}: setting[{k}]", one) for k, one in enumerate(entries["setting"])]
     wanted = [quantities.read(f"{path}: quantity[{k}]", one, path.parent) for k, one in enumerate(entries["quantity"])]
     effects = [effect(f"{path}: effect[{k}]", one) for k, one in enumerate(entries["effect"])]
@@ -111,55 +97,35 @@ def read(path, required="setting"):
     for file, steps in keys:
         if keys.count((file, steps)) > 1:
             raise BadArtefact(f"{path}: found {file}:{'.'.join(steps)} twice, expected a key in one setting only")
-    return Plan(path, pipeline, switches["check"], switches["reuse"], cost, settings, wanted, effects)
-
-
-def check_keys(where, table, known):
-    for key in table:
-        if key not in known:
-            raise BadArtefact(f"{where}: {key}: unknown key, expected one of {', '.join(sorted(known))}")
-
-
-def text_of(where, entry, key, default=None):
-    """A text that is not empty."""
-    value = entry.get(key, default)
-    if not isinstance(value, str) or (not value and default is None):
-        raise BadArtefact(f"{where}.{key}: found {value!r}, expected a text")
-    return value
+    return Plan(path, pipeline, check, reuse, cost, settings, wanted, effects)
 
 
 def setting(where, entry):
-    check_keys(where, entry, SETTING)
-    name, unit = text_of(where, entry, "name"), text_of(where, entry, "unit", "")
     keys = keys_of(where, entry)
-    values = entry.get("values")
-    if not isinstance(values, list) or not 1 <= len(values) <= MOST_VALUES:
+    values = entry["values"]
+    if not 1 <= len(values) <= MOST_VALUES:
         raise BadArtefact(f"{where}.values: found {values!r:.80}, expected 1 to {MOST_VALUES} values from coarse to fine")
     values = [value_of(f"{where}.values", one, len(keys)) for one in values]
     if len(set(values)) < len(values):
         raise BadArtefact(f"{where}.values: found a value twice, expected each once")
     base = value_of(f"{where}.base", entry["base"], len(keys)) if "base" in entry else None
-    reference = entry.get("reference", REFERENCES[0])
-    if reference not in REFERENCES:
-        raise BadArtefact(f"{where}.reference: found {reference!r}, expected {', '.join(REFERENCES)}")
+    reference = entry.get("reference", "auto")
     sizes = entry.get("sizes")
     if sizes is None:
         sizes = step_sizes(values)
-    elif not isinstance(sizes, list) or len(sizes) != len(values) or not all(is_number(one) and one > 0 for one in sizes) \
-            or any(a <= b for a, b in zip(sizes, sizes[1:])):
+    elif len(sizes) != len(values) or any(a <= b for a, b in zip(sizes, sizes[1:])):
         raise BadArtefact(f"{where}.sizes: found {sizes!r:.80}, expected {len(values)} positive numbers that fall")
     if reference == "richardson" and (sizes is None or len(sizes) < 3):
         raise BadArtefact(f"{where}.reference: found richardson, expected at least three values with step sizes for it")
-    return Setting(name, unit, keys, values, base, reference, sizes)
+    return Setting(entry["name"], entry.get("unit", ""), keys, values, base, reference, sizes)
 
 
 def effect(where, entry):
     """A table [[effect]]."""
-    check_keys(where, entry, EFFECT)
     keys = keys_of(where, entry)
     if "off" not in entry and "on" not in entry:
         raise BadArtefact(f"{where}: found neither off nor on, expected the value that switches the effect off, on, or both")
-    return Effect(text_of(where, entry, "name"), keys, *(switch_values(f"{where}.{to}", entry.get(to), len(keys)) for to in ("off", "on")))
+    return Effect(entry["name"], keys, *(switch_values(f"{where}.{to}", entry.get(to), len(keys)) for to in ("off", "on")))
 
 
 def switch_values(where, value, count):
@@ -171,11 +137,9 @@ def switch_values(where, value, count):
 
 def keys_of(where, entry):
     """[(file, path of keys)] of `key` or `keys`."""
-    if ("key" in entry) == ("keys" in entry):
-        raise BadArtefact(f"{where}: found {'both' if 'key' in entry else 'neither'} key and keys, expected one of them")
     texts = [entry["key"]] if "key" in entry else entry["keys"]
-    if not isinstance(texts, list) or not texts or not all(isinstance(one, str) for one in texts):
-        raise BadArtefact(f"{where}.keys: found {texts!r}, expected texts such as slap.run.toml:accuracy.tolerance")
+    if not texts:
+        raise BadArtefact(f"{where}.keys: found none, expected texts such as slap.run.toml:accuracy.tolerance")
     return [key_of(where, one) for one in texts]
 
 
@@ -197,14 +161,10 @@ def steps_of(table):
     return [key, *(steps_of(below) if isinstance(below, dict) else [])]
 
 
-def is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < float("inf")
-
-
 def value_of(where, value, count):
     """A value as a tuple with an entry for each key; one that is no list is for all of them."""
     entries = tuple(value) if isinstance(value, list) else (value,) * count
-    if len(entries) != count or not all(is_number(one) or isinstance(one, (str, bool)) for one in entries):
+    if len(entries) != count or not all(rows.is_number(one) or isinstance(one, (str, bool)) for one in entries):
         raise BadArtefact(f"{where}: found {value!r:.80}, expected a number, text, true or false for each of the {count} keys")
     return entries
 
@@ -212,7 +172,7 @@ def value_of(where, value, count):
 def step_sizes(values):
     """Of values with one number that changes: the numbers where they fall, their inverses where they rise; else None."""
     columns = [column for column in zip(*values) if len(set(column)) > 1]
-    if not columns or any(column != columns[0] for column in columns) or not all(is_number(one) and one > 0 for one in columns[0]):
+    if not columns or any(column != columns[0] for column in columns) or not all(rows.is_number(one) and one > 0 for one in columns[0]):
         return None
     numbers = columns[0]
     if all(a > b for a, b in zip(numbers, numbers[1:])):

@@ -16,6 +16,7 @@ import math
 
 import numpy as np
 
+from ..keys.rows import is_number
 from . import convergence, findings, plan, run
 from .quantities import Value
 from .run import BASE
@@ -101,7 +102,7 @@ def middle_value(one, other, h, finer):
         if a == b:
             found.append(a)
             continue
-        if not plan.is_number(a) or not plan.is_number(b) or a * b <= 0 or \
+        if not is_number(a) or not is_number(b) or a * b <= 0 or \
                 not any(math.isclose(a / b, ratio, rel_tol=1e-9) for ratio in (h / finer, finer / h)):
             return None
         middle = math.copysign(math.sqrt(a * b), a)

@@ -26,6 +26,7 @@ import numpy as np
 from .. import fields, orders, slap, slap_rows
 from ..artefact import BadArtefact, dataset, open_artefact, text, totals
 from ..histories import crank_angle, has
+from ..keys.study_keys import TAKEN
 
 POINTS = 1440
 CYCLE_DEG = 720.0
@@ -101,13 +102,9 @@ class Quantity:
 
 @dataclasses.dataclass
 class Extractor:
-    """take: function of an open file and the keys of a quantity; keys: {name: (kind, default)}, without default ... ."""
+    """take: function of an open file and the keys of a quantity, study_keys.TAKEN."""
     take: object
     unit: str
-    keys: dict = dataclasses.field(default_factory=dict)
-
-
-NUMBERS, WHOLE, TEXT = (int, float), (int,), (str,)
 
 
 def frequency(file, number):
@@ -261,21 +258,20 @@ def curve(file, values, window):
 
 
 TAKE = {
-    "frequency": Extractor(frequency, "Hz", {"number": (WHOLE, ...)}),
-    "line": Extractor(line, "m/s2", {"sensor": (TEXT, ...), "at_hz": (NUMBERS, ...)}),
-    "slap_time": Extractor(slap_time, "s", {"part": (NUMBERS, 0.75), "to_hz": (NUMBERS, 0.0)}),
-    "slap_height": Extractor(slap_height, "m/s2", {"to_hz": (NUMBERS, 0.0)}),
-    "rings_until": Extractor(rings_until, "s", {"to_hz": (NUMBERS, 0.0)}),
-    "third_octaves": Extractor(third_octaves, DB, {"of": (TEXT, ...), "from_hz": (NUMBERS, 0.0), "to_hz": (NUMBERS, EVERYTHING)}),
+    "frequency": Extractor(frequency, "Hz"),
+    "line": Extractor(line, "m/s2"),
+    "slap_time": Extractor(slap_time, "s"),
+    "slap_height": Extractor(slap_height, "m/s2"),
+    "rings_until": Extractor(rings_until, "s"),
+    "third_octaves": Extractor(third_octaves, DB),
     "power_dba": Extractor(power_dba, "dB(A)"),
-    "erp_dba": Extractor(erp_dba, "dB(A)", {"panel": (TEXT, "exposed")}),
-    "order": Extractor(of_order, "", {"of": (TEXT, ...), "order": (NUMBERS, ...)}),
-    "link_force": Extractor(link_force, "N", {"chain": (TEXT, ...)}),
-    "loss": Extractor(loss, "W", {"element": (TEXT, ...)}),
+    "erp_dba": Extractor(erp_dba, "dB(A)"),
+    "order": Extractor(of_order, ""),
+    "link_force": Extractor(link_force, "N"),
+    "loss": Extractor(loss, "W"),
     "cost": Extractor(lambda file: totals(file)[0], "s"),
-    "dataset": Extractor(of_dataset, "", {"path": (TEXT, ...), "reduce": (TEXT, "last"), "column": (WHOLE, 0), "last_cycle_only": ((bool,), True)}),
+    "dataset": Extractor(of_dataset, ""),
 }
-KINDS = {NUMBERS: "a number", WHOLE: "a whole number", TEXT: "a text", (bool,): "true or false"}
 COMMON = {"name", "file", "take", "unit", "error", "exact", "small"}
 SMALL = 0.01       # relative change that does not matter
 SMALL_DB = 0.1
@@ -291,46 +287,28 @@ def extract(path, take, keys):
     return found
 
 
-def own_keys(where, entry, common):
-    """(take, its keys with their defaults) of an entry, which may have `common` ones besides."""
-    take = entry.get("take")
-    if take not in TAKE:
-        raise BadArtefact(f"{where}.take: found {take!r}, expected one of {', '.join(TAKE)}")
-    known, found = TAKE[take].keys, {}
+def own_keys(where, entry):
+    """(take, its keys with their defaults) of an entry that was checked."""
+    take, found = entry["take"], {}
+    known = TAKEN[take]
     for key in entry:
-        if key not in known and key not in common:
-            raise BadArtefact(f"{where}.{key}: unknown key of {take}, expected one of {', '.join([*known, *sorted(common)])}")
-    for key, (kinds, default) in known.items():
-        value = entry.get(key, default)
-        if value is ...:
-            raise BadArtefact(f"{where}.{key}: not found, expected it for {take}")
-        if not isinstance(value, kinds) or (isinstance(value, bool) and bool not in kinds) or value == "":
-            raise BadArtefact(f"{where}.{key}: found {value!r}, expected {KINDS[kinds]}")
-        found[key] = value
-    if take == "slap_time" and not 0.0 < found["part"] <= 1.0:
-        raise BadArtefact(f"{where}.part: found {found['part']!r}, expected a number above 0, at most 1")
-    if take == "dataset" and found["reduce"] not in (*REDUCTIONS, "curve"):
-        raise BadArtefact(f"{where}.reduce: found {found['reduce']!r}, expected one of {', '.join([*REDUCTIONS, 'curve'])}")
+        if key not in known and key not in COMMON:
+            raise BadArtefact(f"{where}.{key}: no key of {take}, which has {', '.join(known) or 'none of its own'}")
+    for key, default in known.items():
+        found[key] = entry.get(key, default)
+        if found[key] is ...:
+            raise BadArtefact(f"{where}.{key}: found nothing, {take} needs it")
     return take, found
 
 
 def read(where, entry, folder):
-    """The Quantity of a table [[quantity]]; `folder`: from which the files of `exact` are named."""
-    take, keys = own_keys(where, entry, COMMON)
-    for key in ("name", "file"):
-        if not isinstance(entry.get(key), str) or not entry[key]:
-            raise BadArtefact(f"{where}.{key}: found {entry.get(key)!r}, expected a text")
+    """The Quantity of a table [[quantity]] that was checked; `folder`: from which the files of `exact` are named."""
+    take, keys = own_keys(where, entry)
     if not entry["file"].endswith(".h5") or "/" in entry["file"]:
         raise BadArtefact(f"{where}.file: found {entry['file']}, expected an artefact of the pipeline's folder, as slap.field.h5")
     unit = entry.get("unit", TAKE[take].unit)
-    if not isinstance(unit, str):
-        raise BadArtefact(f"{where}.unit: found {unit!r}, expected a text")
     error = entry.get("error", "absolute" if unit.startswith(DB) or take in ("slap_time", "rings_until") or keys.get("reduce") == "curve" else "relative")
-    if error not in ("relative", "absolute"):
-        raise BadArtefact(f"{where}.error: found {error!r}, expected relative or absolute")
     small = entry.get("small", SMALL if error == "relative" else SMALL_DB if unit.startswith(DB) else None)
-    if small is not None and (not isinstance(small, NUMBERS) or isinstance(small, bool) or not 0.0 <= small < float("inf")):
-        raise BadArtefact(f"{where}.small: found {small!r}, expected a number from 0, in units of the error (0.01: 1 %)")
     return Quantity(entry["name"], entry["file"], take, keys, unit, error == "relative", small, exact(f"{where}.exact", entry.get("exact"), folder))
 
 
@@ -338,9 +316,7 @@ def exact(where, entry, folder):
     """A number, or what is taken from another file."""
     if entry is None:
         return None
-    if isinstance(entry, NUMBERS) and not isinstance(entry, bool) and np.isfinite(entry):
+    if not isinstance(entry, dict):
         return number(entry)
-    if not isinstance(entry, dict) or not isinstance(entry.get("file"), str):
-        raise BadArtefact(f"{where}: found {entry!r:.80}, expected a number or {{ file = ..., take = ... }}")
-    take, keys = own_keys(where, entry, {"file", "take"})
+    take, keys = own_keys(where, entry)
     return extract(folder / entry["file"], take, keys)

@@ -13,6 +13,7 @@ import tomllib
 
 from .. import artefact
 from ..artefact import BadArtefact, CannotWrite
+from ..keys.schema_line import schema_line
 from ..sweep import write_changed
 from . import toml_text
 from .pipeline import environment
@@ -230,7 +231,7 @@ class VariantFiles:
         moved = toml_text.replace_texts(tables, lambda text: str((folder / text).resolve()) if text.startswith("../") and (folder / text).exists() else text)
         if name not in self.changed and moved == tables:
             return (folder / name).read_text(encoding="utf-8")
-        return toml_text.text_of(moved)
+        return schema_line(name) + toml_text.text_of(moved)
 
 
 def quoted(path):

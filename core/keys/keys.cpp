@@ -1,0 +1,592 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/keys/keys.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <set>
+
+namespace clatter::keys {
+namespace {
+
+template <class T>
+T& member(std::byte* bytes) {
+  return *reinterpret_cast<T*>(bytes);
+}
+
+template <class T>
+const T& member(const std::byte* bytes) {
+  return *reinterpret_cast<const T*>(bytes);
+}
+
+double in_si(double value, const KeyUnit& unit, const Config& table) {
+  return value * (unit.of_file ? table.metre() * unit.scale : unit.scale) + unit.offset;
+}
+
+// To 15 digits: 4e-5 m is 40 um, not 39.99999999999999.
+double in_unit(double value, const KeyUnit& unit, double metre = 1.0) {
+  const double exact = (value - unit.offset) / (unit.of_file ? metre * unit.scale : unit.scale);
+  return std::isfinite(exact) ? std::stod(fmt::format("{:.15g}", exact)) : exact;
+}
+
+std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+
+std::string shown(double value) { return fmt::format("{}", value); }
+
+bool is_inside(const Range& range, double value) {
+  return std::isfinite(value) && value <= range.max &&
+         (range.open_min ? value > range.min : value >= range.min);
+}
+
+/// A value as it would be written; empty for one that no file can give, which means that there is
+/// none.
+std::string shown(const Range& range, double value) {
+  return is_inside(range, value) ? shown(value) : "";
+}
+
+/// Whether the key is left out and has no default.
+bool is_absent(const Key& row, const Config& table) {
+  return !row.required && row.standard.empty() && !table.has(row.name);
+}
+
+/// Refuses values of a list outside its range.
+void check_each(const Config& table, const std::string& name, const Range& range,
+                const std::vector<double>& values) {
+  for (const double value : values) {
+    if (!is_inside(range, value))
+      table.fail(name, fmt::format("found {:g}, expected {}", value, expectation(range)));
+  }
+}
+
+std::vector<double> read_list(const Config& table, const Key& row) {
+  std::vector<double> values =
+      row.count > 0 ? table.numbers(row.name, row.count) : table.numbers(row.name);
+  check_each(table, row.name, row.range, values);
+  if (row.required && values.empty()) table.fail(row.name, "found none, expected a number");
+  for (size_t k = 1; k < values.size(); ++k)
+    if (row.ascending && !(values[k] > values[k - 1]))
+      table.fail(row.name, fmt::format("found {:g} after {:g}, expected ascending values",
+                                       values[k], values[k - 1]));
+  for (double& value : values) value = in_si(value, row.unit, table);
+  return values;
+}
+
+std::string written_list(const Key& row, const double* values, size_t count) {
+  std::vector<std::string> texts;
+  for (size_t k = 0; k < count; ++k) texts.push_back(shown(in_unit(values[k], row.unit)));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+}  // namespace
+
+Row& Row::required() {
+  key_.required = true;
+  key_.standard.clear();
+  return *this;
+}
+
+Row& Row::needs(std::string other, Values values, std::string reason) {
+  key_.rules.push_back({Rule::Kind::kNeeds, std::move(other), values.all, std::move(reason)});
+  return *this;
+}
+
+Row& Row::excludes(std::string other, std::string reason) {
+  key_.rules.push_back({Rule::Kind::kExcludes, std::move(other), {}, std::move(reason)});
+  return *this;
+}
+
+Row& Row::required_with(std::string other, Values values) {
+  key_.rules.push_back({Rule::Kind::kRequiredWith, std::move(other), values.all, ""});
+  return *this;
+}
+
+Row& Row::of(const std::string& other, const Values& values) {
+  needs(other, values);
+  return required_with(other, values);
+}
+
+Row& Row::as_many_as(std::string other) {
+  key_.rules.push_back({Rule::Kind::kAsMany, std::move(other), {}, ""});
+  return *this;
+}
+
+Row& Row::ascending() {
+  key_.ascending = true;
+  return *this;
+}
+
+Row& Row::in_length_unit() {
+  key_.unit.shown = "length_unit";
+  key_.unit.of_file = true;
+  return *this;
+}
+
+Row& Row::count(size_t count) {
+  key_.count = count;
+  return *this;
+}
+
+Row& Row::each_of(std::vector<std::string> choices) {
+  key_.choices = std::move(choices);
+  return *this;
+}
+
+Row& Row::distinct() {
+  key_.distinct = true;
+  return *this;
+}
+
+Row& Row::types(std::vector<Type> types) {
+  key_.types = std::move(types);
+  return *this;
+}
+
+Row& Row::shown_in(std::string unit) {
+  key_.unit.shown = std::move(unit);
+  return *this;
+}
+
+Row& Row::unconverted() {
+  key_.unit.scale = 1.0;
+  key_.unit.offset = 0.0;
+  return *this;
+}
+
+Row& Row::times(double factor) {
+  key_.unit.scale *= factor;
+  return *this;
+}
+
+size_t Rows::offset_of(const void* member) const {
+  const auto offset = static_cast<size_t>(static_cast<const std::byte*>(member) - standard_);
+  assert(offset < size_);  // a member of the struct itself, not of a vector or optional in it
+  return offset;
+}
+
+Key& Rows::add(std::string name, Type type, const void* member, std::string meaning) {
+  assert(table_.find(name) == nullptr);
+  Key key;
+  key.unit = unit_of(name);
+  key.name = std::move(name);
+  key.type = type;
+  key.offset = offset_of(member);
+  key.meaning = std::move(meaning);
+  return table_.keys_.emplace_back(std::move(key));
+}
+
+// A default is what its own text gives: number() of the value in the key's unit, then SI.
+Row Rows::number(std::string name, double& at, Range range, std::string meaning) {
+  Key& key = add(std::move(name), Type::kNumber, &at, std::move(meaning));
+  key.range = range;
+  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    if (is_absent(row, table)) return;
+    auto& value = member<double>(bytes);
+    const double standard = in_unit(value, row.unit, table.metre());
+    value = in_si(row.required ? table.number(row.name, row.range)
+                               : table.number_or(row.name, standard, row.range),
+                  row.unit, table);
+  };
+  key.written = [](const Key& row, const std::byte* bytes) {
+    return shown(row.range, in_unit(member<double>(bytes), row.unit));
+  };
+  return Row(key);
+}
+
+Row Rows::number(std::string name, std::optional<double>& at, Range range, std::string meaning) {
+  Key& key = add(std::move(name), Type::kNumber, &at, std::move(meaning));
+  key.range = range;
+  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    auto& value = member<std::optional<double>>(bytes);
+    if (row.required || table.has(row.name)) {
+      value = in_si(table.number(row.name, row.range), row.unit, table);
+    } else if (value) {
+      table.number_or(row.name, in_unit(*value, row.unit, table.metre()));
+    }
+  };
+  key.written = [](const Key& row, const std::byte* bytes) {
+    const auto& value = member<std::optional<double>>(bytes);
+    return value ? shown(in_unit(*value, row.unit)) : "";
+  };
+  return Row(key);
+}
+
+Row Rows::integer(std::string name, int& at, Range range, std::string meaning) {
+  Key& key = add(std::move(name), Type::kInteger, &at, std::move(meaning));
+  key.range = range;
+  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    if (is_absent(row, table)) return;
+    auto& value = member<int>(bytes);
+    value = static_cast<int>(row.required ? table.integer(row.name, row.range)
+                                          : table.integer_or(row.name, value, row.range));
+  };
+  key.written = [](const Key& row, const std::byte* bytes) {
+    return shown(row.range, member<int>(bytes));
+  };
+  return Row(key);
+}
+
+Row Rows::integer(std::string name, std::optional<int>& at, Range range, std::string meaning) {
+  Key& key = add(std::move(name), Type::kInteger, &at, std::move(meaning));
+  key.range = range;
+  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    auto& value = member<std::optional<int>>(bytes);
+    if (row.required || table.has(row.name) || value)
+      value = static_cast<int>(value ? table.integer_or(row.name, *value, row.range)
+                                     : table.integer(row.name, row.range));
+  };
+  key.written = [](const Key&, const std::byte* bytes) {
+    const auto& value = member<std::optional<int>>(bytes);
+    return value ? fmt::format("{}", *value) : "";
+  };
+  return Row(key);
+}
+
+Row Rows::flag(std::string name, bool& at, std::string meaning) {
+  Key& key = add(std::move(name), Type::kFlag, &at, std::move(meaning));
+  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    auto& value = member<bool>(bytes);
+    value = table.flag_or(row.name, value);
+  };
+  key.written = [](const Key&, const std::byte* bytes) {
+    return std::string(member<bool>(bytes) ? "true" : "false");
+  };
+  return Row(key);
+}
+
+Row Rows::flag(std::string name, std::optional<bool>& at, std::string meaning) {
+  Key& key = add(std::move(name), Type::kFlag, &at, std::move(meaning));
+  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    auto& value = member<std::optional<bool>>(bytes);
+    if (table.has(row.name) || value) value = table.flag_or(row.name, value.value_or(false));
+  };
+  key.written = [](const Key&, const std::byte* bytes) -> std::string {
+    const auto& value = member<std::optional<bool>>(bytes);
+    return !value ? "" : *value ? "true" : "false";
+  };
+  return Row(key);
+}
+
+Row Rows::text(std::string name, std::string& at, std::string meaning) {
+  Key& key = add(std::move(name), Type::kText, &at, std::move(meaning));
+  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    auto& value = member<std::string>(bytes);
+    value = row.required ? table.text(row.name) : table.text_or(row.name, value);
+  };
+  key.written = [](const Key&, const std::byte* bytes) {
+    const auto& value = member<std::string>(bytes);
+    return value.empty() ? "" : quoted(value);
+  };
+  return Row(key);
+}
+
+size_t Rows::choice_of(const Key& key, const Config& table, const std::string& text) {
+  const auto at = std::find(key.choices.begin(), key.choices.end(), text);
+  if (at == key.choices.end())
+    table.fail(key.name, fmt::format("found \"{}\", expected one of: {}", text,
+                                     fmt::join(key.choices, ", ")));
+  return static_cast<size_t>(at - key.choices.begin());
+}
+
+Row Rows::add_choice(std::string name, const void* at, std::vector<std::string> choices,
+                     std::vector<std::byte> values, std::string meaning) {
+  Key& key = add(std::move(name), Type::kChoice, at, std::move(meaning));
+  const size_t bytes_each = values.size() / choices.size();
+  const auto index_of = [values, bytes_each](const Key& row, const std::byte* bytes) {
+    for (size_t k = 0; k < row.choices.size(); ++k)
+      if (std::memcmp(bytes, &values[k * bytes_each], bytes_each) == 0) return k;
+    return row.choices.size();
+  };
+  key.choices = std::move(choices);
+  key.read = [values, bytes_each, index_of](const Key& row, const Config& table, std::byte* bytes) {
+    const size_t standard = index_of(row, bytes);
+    if (standard == row.choices.size() && !row.required && !table.has(row.name)) return;
+    const std::string text = row.required || standard == row.choices.size()
+                                 ? table.text(row.name)
+                                 : table.text_or(row.name, row.choices[standard]);
+    std::memcpy(bytes, &values[choice_of(row, table, text) * bytes_each], bytes_each);
+  };
+  key.written = [index_of](const Key& row, const std::byte* bytes) {
+    const size_t k = index_of(row, bytes);
+    return k == row.choices.size() ? "" : quoted(row.choices[k]);
+  };
+  return Row(key);
+}
+
+Row Rows::name(std::string name, std::string& at, std::string meaning) {
+  Row row = text(std::move(name), at, std::move(meaning));
+  Key& key = table_.keys_.back();
+  key.read = [read = key.read](const Key& self, const Config& table, std::byte* bytes) {
+    read(self, table, bytes);
+    const auto& value = member<std::string>(bytes);
+    if (table.has(self.name) && (value.empty() || value.find('/') != std::string::npos))
+      table.fail(self.name, fmt::format("found \"{}\", expected a name without '/'", value));
+  };
+  return row;
+}
+
+Row Rows::choice(std::string name, std::string& at, std::vector<std::string> choices,
+                 std::string meaning) {
+  Row row = text(std::move(name), at, std::move(meaning));
+  Key& key = table_.keys_.back();
+  key.type = Type::kChoice;
+  key.choices = std::move(choices);
+  key.read = [read = key.read](const Key& self, const Config& table, std::byte* bytes) {
+    read(self, table, bytes);
+    if (table.has(self.name)) choice_of(self, table, member<std::string>(bytes));
+  };
+  return row;
+}
+
+Row Rows::units(std::string name, UnitSystem& at, std::string meaning) {
+  Key& key = add(std::move(name), Type::kChoice, &at, std::move(meaning));
+  key.choices = unit_system_names();
+  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    if (row.required || table.has(row.name))
+      member<UnitSystem>(bytes) = unit_system_named(table.text(row.name), table.where(row.name));
+  };
+  key.written = [](const Key&, const std::byte* bytes) {
+    return quoted(member<UnitSystem>(bytes).name);
+  };
+  return Row(key);
+}
+
+Row Rows::path(std::string name, std::filesystem::path& at, std::string meaning) {
+  Key& key = add(std::move(name), Type::kPath, &at, std::move(meaning));
+  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    if (row.required || table.has(row.name))
+      member<std::filesystem::path>(bytes) = table.path(row.name);
+  };
+  key.written = [](const Key&, const std::byte* bytes) {
+    const auto& value = member<std::filesystem::path>(bytes);
+    return value.empty() ? "" : quoted(value.string());
+  };
+  return Row(key);
+}
+
+Row Rows::numbers(std::string name, std::vector<double>& at, Range each, std::string meaning) {
+  Key& key = add(std::move(name), Type::kNumbers, &at, std::move(meaning));
+  key.range = each;
+  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    auto& values = member<std::vector<double>>(bytes);
+    if (row.required || table.has(row.name)) {
+      values = read_list(table, row);
+      return;
+    }
+    for (double& value : values) value = in_unit(value, row.unit, table.metre());
+    table.numbers_or(row.name, values);
+    for (double& value : values) value = in_si(value, row.unit, table);
+  };
+  key.written = [](const Key& row, const std::byte* bytes) {
+    const auto& values = member<std::vector<double>>(bytes);
+    return written_list(row, values.data(), values.size());
+  };
+  return Row(key);
+}
+
+Row Rows::one_or_more(std::string name, std::vector<double>& at, Range each, std::string meaning) {
+  Row row = numbers(std::move(name), at, each, std::move(meaning));
+  Key& key = table_.keys_.back();
+  key.type = Type::kEither;
+  key.types = {Type::kNumber, Type::kNumbers};
+  key.shape = "a number or a list of numbers";
+  key.read = [read = key.read](const Key& self, const Config& table, std::byte* bytes) {
+    if (!table.has(self.name) || table.is_list(self.name)) {
+      read(self, table, bytes);
+      if (table.has(self.name) && member<std::vector<double>>(bytes).empty())
+        table.fail(self.name, "found none, expected a number");
+      return;
+    }
+    member<std::vector<double>>(bytes) = {
+        in_si(table.number(self.name, self.range), self.unit, table)};
+  };
+  return row;
+}
+
+Row Rows::interval(std::string name, std::optional<std::pair<double, double>>& at,
+                   std::string meaning) {
+  Key& key = add(std::move(name), Type::kNumbers, &at, std::move(meaning));
+  key.count = 2;
+  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    if (!row.required && !table.has(row.name)) return;
+    const std::vector<double> ends = read_list(table, row);
+    if (!(ends[0] < ends[1]))
+      table.fail(row.name, "found an end that is not above the beginning, expected ascending");
+    member<std::optional<std::pair<double, double>>>(bytes) = {ends[0], ends[1]};
+  };
+  key.written = [](const Key& row, const std::byte* bytes) {
+    const auto& ends = member<std::optional<std::pair<double, double>>>(bytes);
+    return ends ? written_list(row, std::array{ends->first, ends->second}.data(), 2) : "";
+  };
+  return Row(key);
+}
+
+Row Rows::by_name(std::string name, std::map<std::string, double>& at, Range each,
+                  std::string meaning) {
+  Key& key = add(std::move(name), Type::kByName, &at, std::move(meaning));
+  key.range = each;
+  key.written = [](const Key& row, const std::byte* bytes) -> std::string {
+    std::vector<std::string> all;
+    for (const auto& [one, value] : member<std::map<std::string, double>>(bytes))
+      all.push_back(fmt::format("{} = {}", quoted(one), shown(in_unit(value, row.unit))));
+    return all.empty() ? "" : fmt::format("{{{}}}", fmt::join(all, ", "));
+  };
+  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    const auto found = row.required ? table.table(row.name) : table.find_table(row.name);
+    for (const std::string& one : found ? found->keys() : std::vector<std::string>())
+      member<std::map<std::string, double>>(bytes)[one] =
+          in_si(found->number(one, row.range), row.unit, table);
+  };
+  return Row(key);
+}
+
+Row Rows::texts(std::string name, std::vector<std::string>& at, std::string meaning) {
+  Key& key = add(std::move(name), Type::kTexts, &at, std::move(meaning));
+  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    auto& values = member<std::vector<std::string>>(bytes);
+    values = row.required ? table.texts(row.name) : read_choices(row, table, values);
+    if (row.required && values.empty()) table.fail(row.name, "found none, expected a text");
+  };
+  key.written = [](const Key&, const std::byte* bytes) {
+    return in_toml(member<std::vector<std::string>>(bytes));
+  };
+  return Row(key);
+}
+
+Row Rows::fixed(std::string name, const double* at, size_t count, Range each, std::string meaning) {
+  Key& key = add(std::move(name), Type::kNumbers, at, std::move(meaning));
+  key.range = each;
+  key.count = count;
+  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    if (!row.required && !table.has(row.name)) return;
+    const std::vector<double> values = read_list(table, row);
+    std::copy(values.begin(), values.end(), &member<double>(bytes));
+  };
+  key.written = [](const Key& row, const std::byte* bytes) {
+    const double* values = &member<double>(bytes);
+    const bool can_be_given = std::all_of(values, values + row.count, [&](double value) {
+      return is_inside(row.range, in_unit(value, row.unit));
+    });
+    return can_be_given ? written_list(row, values, row.count) : "";
+  };
+  return Row(key);
+}
+
+Row Rows::vector(std::string name, std::optional<Eigen::Vector3d>& at, Range each,
+                 std::string meaning) {
+  Key& key = add(std::move(name), Type::kNumbers, &at, std::move(meaning));
+  key.range = each;
+  key.count = 3;
+  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    if (row.required || table.has(row.name))
+      member<std::optional<Eigen::Vector3d>>(bytes) = Eigen::Vector3d(read_list(table, row).data());
+  };
+  key.written = [](const Key& row, const std::byte* bytes) {
+    const auto& value = member<std::optional<Eigen::Vector3d>>(bytes);
+    return value ? written_list(row, value->data(), 3) : "";
+  };
+  return Row(key);
+}
+
+namespace {
+
+Eigen::Vector3d read_direction(const Key& row, const Config& table) {
+  const Eigen::Vector3d direction(read_list(table, row).data());
+  if (!(direction.norm() > 0.0)) table.fail(row.name, "found length 0, expected a direction");
+  return direction.normalized();
+}
+
+}  // namespace
+
+Row Rows::direction(std::string name, Eigen::Vector3d& at, std::string meaning) {
+  Row row = vector(std::move(name), at, {}, std::move(meaning));
+  table_.keys_.back().read = [](const Key& self, const Config& table, std::byte* bytes) {
+    if (self.required || table.has(self.name))
+      member<Eigen::Vector3d>(bytes) = read_direction(self, table);
+  };
+  table_.keys_.back().written = [](const Key& self, const std::byte* bytes) {
+    const auto& direction = member<Eigen::Vector3d>(bytes);
+    return direction.isZero(0.0) ? "" : written_list(self, direction.data(), 3);
+  };
+  return row;
+}
+
+Row Rows::direction(std::string name, std::optional<Eigen::Vector3d>& at, std::string meaning) {
+  Row row = vector(std::move(name), at, {}, std::move(meaning));
+  table_.keys_.back().read = [](const Key& self, const Config& table, std::byte* bytes) {
+    if (self.required || table.has(self.name))
+      member<std::optional<Eigen::Vector3d>>(bytes) = read_direction(self, table);
+  };
+  return row;
+}
+
+Row Rows::length_unit(std::string name, double& at,
+                      std::vector<std::pair<std::string, double>> units, std::string meaning) {
+  std::vector<std::string> names;
+  std::vector<std::byte> values;
+  for (const auto& [text, metre] : units) {
+    names.push_back(text);
+    const auto* bytes = reinterpret_cast<const std::byte*>(&metre);
+    values.insert(values.end(), bytes, bytes + sizeof(double));
+  }
+  Row row =
+      add_choice(std::move(name), &at, std::move(names), std::move(values), std::move(meaning));
+  Key& key = table_.keys_.back();
+  key.read = [read = key.read](const Key& self, const Config& table, std::byte* bytes) {
+    read(self, table, bytes);
+    table.set_metre(member<double>(bytes));
+  };
+  return row;
+}
+
+void Rows::in_either(const std::string& first, const std::string& second, bool& is_second) {
+  for (Key& key : table_.keys_) {
+    const bool is_first = key.name == first;
+    if (!is_first && key.name != second) continue;
+    const auto to_flag = static_cast<std::ptrdiff_t>(offset_of(&is_second)) -
+                         static_cast<std::ptrdiff_t>(key.offset);
+    key.read = [=, read = key.read](const Key& row, const Config& table, std::byte* bytes) {
+      if (table.has(second) == is_first) return;
+      read(row, table, bytes);
+      member<bool>(bytes + to_flag) = !is_first;
+    };
+    key.written = [=, written = key.written](const Key& row, const std::byte* bytes) {
+      return member<bool>(bytes + to_flag) == is_first ? "" : written(row, bytes);
+    };
+    if (!is_first) Row(key).excludes(first);
+  }
+}
+
+std::vector<std::string> Rows::read_choices(const Key& row, const Config& table,
+                                            const std::vector<std::string>& standard) {
+  const std::vector<std::string> texts = table.texts_or(row.name, standard);
+  if (row.choices.empty()) return texts;
+  if (texts.empty()) table.fail(row.name, "found none, expected at least one");
+  for (const std::string& text : texts)
+    if (std::find(row.choices.begin(), row.choices.end(), text) == row.choices.end())
+      table.fail(row.name, fmt::format("found \"{}\", expected some of: {}", text,
+                                       fmt::join(row.choices, ", ")));
+  return texts;
+}
+
+std::string Rows::in_toml(const std::vector<std::string>& texts) {
+  std::vector<std::string> all;
+  for (const std::string& text : texts) all.push_back(quoted(text));
+  return fmt::format("[{}]", fmt::join(all, ", "));
+}
+
+void Rows::check_distinct(const Table& keys, const std::vector<Config>& tables) {
+  for (const Key& key : keys.keys()) {
+    std::set<std::string> texts;
+    for (const Config& table : tables)
+      if (key.distinct && table.has(key.name) && !texts.insert(table.text(key.name)).second)
+        table.fail(key.name, fmt::format("found \"{}\" twice, expected different names",
+                                         table.text(key.name)));
+  }
+}
+
+}  // namespace clatter::keys

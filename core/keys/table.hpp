@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The keys of one TOML table, without the type of the struct that they fill: see keys.hpp.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/keys/key.hpp"
+
+namespace clatter::keys {
+
+/// The condition of a rule as it would be written: law, law = "vogel", law = "vogel" or "walther".
+std::string condition(const Key* other, const Rule& rule);
+
+class Table {
+ public:
+  Table(std::string name, std::string meaning)
+      : name_(std::move(name)), meaning_(std::move(meaning)) {}
+
+  const std::string& name() const { return name_; }
+  const std::string& meaning() const { return meaning_; }
+  const std::vector<Key>& keys() const { return keys_; }
+  /// Groups of keys of which exactly one is given.
+  const std::vector<std::vector<std::string>>& alternatives() const { return alternatives_; }
+  /// nullptr when the table has no key of this name.
+  const Key* find(std::string_view name) const;
+  /// What the table lacks may come from others: a schema requires nothing of it.
+  void complete_elsewhere() { complete_elsewhere_ = true; }
+  bool is_complete() const { return !complete_elsewhere_; }
+  /// Lists a table that its owner reads, under the name that it has in this one.
+  void add(std::string name, Type type, const Table& table);
+
+  /// InputError for an unknown key of the table, with the nearest name.
+  void check_known(const Config& table) const;
+  /// Reads all keys into the struct at `object`, whose values before are the defaults. InputError
+  /// "file:line: key: ..." for an unknown key of the table, with the nearest name; for keys that
+  /// exclude or need each other, or lack; and for values outside their range.
+  void read(const Config& table, std::byte* object) const;
+  /// All values as TOML, that of `prefix` below which the table is; defaults that exclude or need
+  /// what the object has otherwise are left out.
+  std::string toml_of(const std::byte* object, const std::string& prefix = "") const;
+
+ private:
+  friend class Rows;
+  template <class S>
+  friend class Keys;
+  void check_rules(const Config& table, const std::byte* object) const;
+  bool is_written(const Key& key, const std::byte* object) const;
+  bool has_value(const Rule& rule, const std::byte* object) const;
+  /// What it needs is there, as far as rows before it say: without that no default is recorded.
+  bool applies(const Key& key, const Config& table, const std::byte* object) const;
+  bool holds(const Rule& rule, const Config& table, const std::byte* object) const;
+
+  void write_standards(const std::byte* standard);
+
+  std::string name_, meaning_;
+  std::vector<Key> keys_;
+  std::vector<std::vector<std::string>> alternatives_;
+  bool complete_elsewhere_ = false;
+  bool shared_ = false;  // other readers take further keys of the same TOML table
+};
+
+}  // namespace clatter::keys
