@@ -52,6 +52,7 @@ if(CLATTER_PRECOMPILE)
   add_library(clatter_eigen_kernels STATIC ${PROJECT_SOURCE_DIR}/core/base/eigen_kernels.cpp)
   target_include_directories(clatter_eigen_kernels PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(clatter_eigen_kernels PRIVATE clatter_eigen)
+  clatter_install(clatter_eigen_kernels)
   clatter_precompiled(clatter_headers ${clatter_third_party_headers})
 endif()
 
