@@ -21,7 +21,7 @@ namespace clatter::assembly {
 namespace {
 
 constexpr double kSameAxes = 1e-12;  // of an axis of a system to a basic one
-constexpr double kGrounded = 1e-9;    // of the motion of an equation's terms taken one by one
+constexpr double kGrounded = 1e-9;   // of the motion of an equation's terms taken one by one
 
 using Dependences = std::vector<Dependence>;
 

@@ -167,7 +167,7 @@ class Parser {
     if (content.count > 1) return;
     const KeywordRole* row = row_of(keyword.key);
     content.fate = row == nullptr ? Fate::kRefused : fate_of(row->role);
-    if (row != nullptr) content.meaning = row->meaning;
+    if (row != nullptr) content.meaning = row->role == Role::kDamping ? "damping" : row->meaning;
     if (ignored) content.fate = Fate::kIgnored;
     if (!left_out || (row != nullptr && row->role == Role::kDamping)) return;
     content.fate = Fate::kPassed;
@@ -231,7 +231,12 @@ class Parser {
     Card card(lines_.keyword());
     const Lines::Kind kind = read_data(card);
     refusals_.attempt([&] {
-      if (const auto found = rayleigh_of(card, source_)) deck_.damping.push_back(*found);
+      const auto found = rayleigh_of(card, source_);
+      if (!found) return;
+      deck_.damping.push_back(*found);
+      constexpr int64_t kNoMore = 0;  // it is counted
+      refusals_.contents().pass("keyword", card.keyword().name, source_, card.origin(),
+                                "damping, offered to the recipe", kNoMore);
     });
     return kind;
   }

@@ -109,6 +109,20 @@ TEST(DofMapTest, NodesAreSharedByComponentsAtOnePosition) {
   EXPECT_EQ(map[5].label, "mode_1");
 }
 
+TEST(DofMapTest, AComponentAlongAxesOfTheDecksNodeCountsWhereTheDeckIsMet) {
+  rom::ReducedModel model = text_model();
+  model.deck.units = "mm-t-s";
+  model.deck.largest_node = 8;
+  model.sets["a set"].node_ids = {7, 7, 7, 8, 0};
+  model.sets["a set"].components = {0, 0, 0, 2, 0};  // along the slanted direction
+  const rom::MappedDof elsewhere = rom::map_of(model)[3];
+  EXPECT_EQ(elsewhere.component, 0);
+  EXPECT_FALSE(elsewhere.of_deck);
+  const rom::MappedDof in_deck = rom::map_of(model, {.deck_axes = true})[3];
+  EXPECT_EQ(std::pair(in_deck.node, in_deck.component), std::pair(8, 2));
+  EXPECT_TRUE(in_deck.turned);
+}
+
 TEST(DofMapTest, TheMapReadsBackToTheLastBit) {
   const std::vector<rom::MappedDof> map = rom::map_of(text_model());
   const auto path = std::filesystem::path(::testing::TempDir()) / "round.dofs.tsv";
