@@ -19,7 +19,6 @@
 namespace clatter::mesh {
 namespace {
 
-constexpr double kCoarsest = 0.1;          // of the part's size: the largest edge that Gmsh makes
 constexpr double kVolumeTolerance = 0.01;  // coarse facets on thin curved walls are below
 
 using FaceTags = std::map<std::string, std::vector<int>>;

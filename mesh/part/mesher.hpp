@@ -34,6 +34,8 @@ struct MeshSettings {
 };
 MeshSettings read_mesh_settings(const Config& config);
 QualityLimits aims_of(const MeshSettings& settings);
+/// Of the part's size: the largest edge that Gmsh makes; larger sizes are reduced to it.
+inline constexpr double kCoarsest = 0.1;
 
 struct PartMesh {
   Mesh mesh;

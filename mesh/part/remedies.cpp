@@ -41,13 +41,14 @@ constexpr double kWider = 1.5;     // than the widest of those
 /// What matters for the choice of remedies.
 struct PartFacts {
   SmallFeatures small;
-  int64_t solids = 0;  // of a CAD file with several
+  int64_t solids = 0;     // of a CAD file with several
+  double coarsest = 0.0;  // larger sizes are reduced to it [part's unit]
 };
 
 template <class Archive, SelfOf<PartFacts> Self>
 void wire(Archive& archive, Self& s) {
-  auto& [small, solids] = s;
-  archive(small, solids);
+  auto& [small, solids, coarsest] = s;
+  archive(small, solids, coarsest);
 }
 
 struct Remedy {
@@ -67,9 +68,10 @@ std::optional<PartFacts> facts_of(const PartJob& job, double size, const ChildLi
       be_silent();
       GmshSession session(job.name);
       const PartGeometry part = build_part(session, *job.config);
-      return to_wire(
-          PartFacts{find_small_features(session, session.boundary_faces(), kFarBelow * size),
-                    static_cast<int64_t>(part.cad_solids.size())});
+      const std::vector<FaceFacts> faces = session.boundary_faces();
+      return to_wire(PartFacts{find_small_features(session, faces, kFarBelow * size),
+                               static_cast<int64_t>(part.cad_solids.size()),
+                               kCoarsest * size_of_part(faces)});
     });
     if (!end.done()) return std::nullopt;
     return from_wire<PartFacts>(end.result);
@@ -114,7 +116,7 @@ double narrow_width(const std::vector<SmallFeature>& faces) {
 }
 
 std::vector<Remedy> remedies_for(const PartJob& job, const MeshSettings& refused,
-                                 const PartFacts& facts) {
+                                 const PartFacts& facts, double metres_per_unit) {
   std::vector<Remedy> list;
   const bool has_description = std::filesystem::path(job.where).extension() == ".toml";
   const char* where = has_description ? "" : ", in a description with kind = \"cad\"";
@@ -130,10 +132,12 @@ std::vector<Remedy> remedies_for(const PartJob& job, const MeshSettings& refused
       list.push_back(
           {fmt::format("[cad] defeature_below = {:g}{}", narrow, where), refused, {narrow, 0.0}});
   }
+  const double coarsest = metres_per_unit * facts.coarsest;
   const auto with_size = [&](double factor) {
     MeshSettings settings = refused;
-    settings.element_size = 1e-3 * two_digits(1e3 * factor * refused.element_size);
-    if (settings.element_size < settings.min_size) return;
+    const double size_now = std::min(refused.element_size, coarsest);
+    settings.element_size = 1e-3 * two_digits(1e3 * factor * size_now);
+    if (settings.element_size < settings.min_size || settings.element_size > coarsest) return;
     list.push_back({fmt::format("{} {:g}", size, 1e3 * settings.element_size), settings});
   };
   with_size(kSmaller);
@@ -159,7 +163,7 @@ std::string tried_advice(const PartJob& job, const MeshSettings& refused, const 
   const auto facts = facts_of(job, refused.element_size / unit.metres, mine);
   if (!facts) return "";
   std::vector<std::string> failed, untried;
-  for (const Remedy& remedy : remedies_for(job, refused, *facts)) {
+  for (const Remedy& remedy : remedies_for(job, refused, *facts, unit.metres)) {
     if (left() < 1.0) {
       untried.push_back(remedy.text);
       continue;

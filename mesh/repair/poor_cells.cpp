@@ -58,7 +58,9 @@ double volume_at(const Mesh& mesh, const std::vector<bool>& marked) {
 }
 
 std::string percent(double value) {
-  return value < 1e-6 ? "below 0.0001 %" : fmt::format("{:.2g} %", 100.0 * value);
+  if (value < 1e-6) return "below 0.0001 %";
+  return value < 1.0 ? fmt::format("{:.2g} %", 100.0 * value)
+                     : fmt::format("{:.0f} %", 100.0 * value);
 }
 
 std::string effect_text(const PoorCells& poor) {
@@ -128,8 +130,8 @@ std::string describe_poor_cells(const PoorCells& poor, const Mesh& mesh, const Q
     kinds.push_back(fmt::format("{} with a scaled Jacobian below {:g} ({})", poor.squeezed,
                                 aims.scaled_jacobian,
                                 name_positions(poor.worst_squeezed, poor.squeezed, "", unit)));
-  return fmt::format("{} of {} cells are poor: {}; {:.2g} % of the volume{}", poor.cells,
-                     mesh.cell_count(), fmt::join(kinds, ", "), 100.0 * poor.volume_share,
+  return fmt::format("{} of {} cells are poor: {}; {} of the volume{}", poor.cells,
+                     mesh.cell_count(), fmt::join(kinds, ", "), percent(poor.volume_share),
                      effect_text(poor));
 }
 

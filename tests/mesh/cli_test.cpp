@@ -109,9 +109,9 @@ TEST(CliMesh, HardG8_TooPoorCellsAreRefusedWithPositionsUnlessAccepted) {
   EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
   for (const char* text :
        {"too poor to be trusted", " deg in cell ", " mm, ", "--accept-poor-cells",
-        "; tried in vain: element_size_mm = 8.4; elements_per_turn = 12; element_size_mm = 17; "
-        "mend "
-        "its smallest features in the CAD program: ",
+        "; tried in vain: element_size_mm = 4.4; elements_per_turn = 12; mend its smallest "
+        "features "
+        "in the CAD program: ",
         "faces from 0.005 wide (0.005 at ("})
     EXPECT_NE(refused.err.find(text), std::string::npos) << refused.err;
   EXPECT_FALSE(std::filesystem::exists(mesh));
