@@ -11,7 +11,8 @@ add_library(clatter_eigen INTERFACE)
 target_link_libraries(clatter_eigen INTERFACE Eigen3::Eigen)
 
 # The standard library, Eigen and fmt are precompiled once for all libraries, and once with GoogleTest for
-# all tests: they dominate the compile time. Every file still includes what it uses.
+# all tests: they dominate the compile time. Every file still includes what it uses. The kernels of Eigen's products
+# are declared there as well, and are in a library of their own.
 option(CLATTER_PRECOMPILE "precompile third-party headers" ON)
 function(clatter_precompiled name)
   cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
@@ -23,13 +24,17 @@ endfunction()
 function(clatter_use_precompiled target from)
   if(CLATTER_PRECOMPILE)
     target_precompile_headers(${target} REUSE_FROM ${from})
+    target_link_libraries(${target} PRIVATE clatter_eigen_kernels)
   endif()
 endfunction()
 set(clatter_third_party_headers
   <Eigen/Dense> <Eigen/SparseCore> <fmt/format.h> <fmt/ranges.h> <algorithm> <array> <cmath> <cstdint> <filesystem>
   <fstream> <functional> <limits> <map> <memory> <numbers> <numeric> <optional> <random> <set> <span> <string>
-  <string_view> <utility> <vector>)
+  <string_view> <utility> <vector> "${PROJECT_SOURCE_DIR}/core/base/eigen_kernels.hpp")
 if(CLATTER_PRECOMPILE)
+  add_library(clatter_eigen_kernels STATIC ${PROJECT_SOURCE_DIR}/core/base/eigen_kernels.cpp)
+  target_include_directories(clatter_eigen_kernels PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(clatter_eigen_kernels PRIVATE clatter_eigen)
   clatter_precompiled(clatter_headers ${clatter_third_party_headers})
 endif()
 
