@@ -20,7 +20,7 @@
 namespace clatter::assembly::testing {
 namespace {
 
-constexpr const char* kSteelToml =
+constexpr const char* kSteelLines =
     "[material.steel]\nregions = [\"body\"]\nE_gpa = 210.0\nnu = 0.3\nrho = 7800.0\n";
 
 class AssemblyCommand : public ::testing::Test {
@@ -67,7 +67,7 @@ class AssemblyCommand : public ::testing::Test {
 };
 
 TEST_F(AssemblyCommand, WritesAModelWithCertificateInputsAndTiming) {
-  recipe(kSteelToml);
+  recipe(kSteelLines);
   ASSERT_EQ(run("part.mesh.h5 -c part.fe.toml -o part.fe.h5 --depfile part.d --json"), 0) << said_;
   const fe::FeModel model = fe::read_fe_model(folder_ / "part.fe.h5");
   EXPECT_NEAR(model.mass.mass, 7800.0 * 0.002, 1e-10);
@@ -79,7 +79,7 @@ TEST_F(AssemblyCommand, WritesAModelWithCertificateInputsAndTiming) {
 }
 
 TEST_F(AssemblyCommand, SameInputGivesTheSameMatrixBits) {
-  recipe(std::string(kSteelToml) + "[[coupling]]\nname = \"end\"\nsurface = \"x1\"\n");
+  recipe(std::string(kSteelLines) + "[[coupling]]\nname = \"end\"\nsurface = \"x1\"\n");
   ASSERT_EQ(run(), 0) << said_;
   const fe::FeModel first = fe::read_fe_model(folder_ / "part.fe.h5");
   ASSERT_EQ(run("part.mesh.h5 -c part.fe.toml -o part.fe.h5 --threads 1"), 0) << said_;
@@ -97,14 +97,14 @@ TEST_F(AssemblyCommand, HelpTeachesWithASample) {
 }
 
 TEST_F(AssemblyCommand, AMissingMeshIsBadInput) {
-  recipe(kSteelToml);
+  recipe(kSteelLines);
   std::filesystem::remove(folder_ / "part.mesh.h5");
   EXPECT_EQ(run(), 2) << said_;
   EXPECT_FALSE(has_output());
 }
 
 TEST_F(AssemblyCommand, AnUnknownSurfaceIsRefusedWithTheNamesPresent) {
-  recipe(std::string(kSteelToml) + "[[support]]\nsurface = \"deck\"\n");
+  recipe(std::string(kSteelLines) + "[[support]]\nsurface = \"deck\"\n");
   expect_refusal(2, {"part.fe.toml:", "deck", "skin, x0, x1"});
 }
 
@@ -117,7 +117,7 @@ TEST_F(AssemblyCommand, AnInvertedCellIsRefused) {
   mesh::Mesh mesh = block_mesh({2, 1, 1}, brick({0.2, 0.1, 0.1}));
   mesh.cells[0].nodes.col(0).swap(mesh.cells[0].nodes.col(1));
   save(mesh);
-  recipe(kSteelToml);
+  recipe(kSteelLines);
   expect_refusal(2, {"part.mesh.h5", "inverted"});
 }
 
@@ -125,7 +125,7 @@ TEST_F(AssemblyCommand, APatchThatCatchesNothingIsRefused) {
   BlockOptions options;
   options.curved = options.wrap_x = true;
   save(block_mesh({8, 1, 2}, ring(0.05, 0.06, 0.1), options));
-  recipe(std::string(kSteelToml) + R"([[contact]]
+  recipe(std::string(kSteelLines) + R"([[contact]]
 name = "liner"
 surface = "y0"
 axis_point = [0.0, 0.0, 0.0]
@@ -142,7 +142,7 @@ strips = 2
 }
 
 TEST_F(AssemblyCommand, AFailureLeavesTheOldModelUntouched) {
-  recipe(kSteelToml);
+  recipe(kSteelLines);
   ASSERT_EQ(run(), 0) << said_;
   const std::string before = sha256_of_file(folder_ / "part.fe.h5");
   recipe("[material.steel]\nregions = [\"body\"]\nE_gpa = 210.0\nnu = 0.7\nrho = 1.0\n");

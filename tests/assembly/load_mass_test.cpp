@@ -17,7 +17,7 @@
 namespace clatter::assembly::testing {
 namespace {
 
-mesh::Mesh bar() { return block_mesh({2, 2, 4}, brick({0.1, 0.2, 0.4})); }
+mesh::Mesh short_bar() { return block_mesh({2, 2, 4}, brick({0.1, 0.2, 0.4})); }
 
 TEST(LoadCase, PressureOnAClosedSkinHasNoResultant) {
   BlockOptions options;
@@ -32,7 +32,7 @@ TEST(LoadCase, PressureOnAClosedSkinHasNoResultant) {
 
 TEST(LoadCase, PressurePushesAgainstTheFaceWithItsArea) {
   const fe::FeModel model =
-      build(bar(), "[[load]]\nname = \"gas\"\nkind = \"pressure\"\nsurface = \"z1\"\n").model;
+      build(short_bar(), "[[load]]\nname = \"gas\"\nkind = \"pressure\"\nsurface = \"z1\"\n").model;
   const Eigen::VectorXd resultant = model.rigid.transpose() * model.loads.at("gas");
   // 1 Pa on 0.1 x 0.2 m2 at (0.05, 0.1, 0.4), downwards: F_z = -0.02, M_x = y F_z, M_y = -x F_z.
   const Eigen::VectorXd want = (Eigen::VectorXd(6) << 0, 0, -0.02, -0.002, 0.001, 0).finished();
@@ -40,7 +40,7 @@ TEST(LoadCase, PressurePushesAgainstTheFaceWithItsArea) {
 }
 
 TEST(LoadCase, AResultantIsSpreadEvenlyAndActsAtTheCentroid) {
-  const fe::FeModel model = build(bar(), R"(
+  const fe::FeModel model = build(short_bar(), R"(
 [[load]]
 name = "head"
 kind = "resultant"
@@ -97,9 +97,9 @@ kind = "centrifugal"
 axis_point = [-1.0, 0.0, 0.0]
 axis = [0.0, 0.0, 1.0]
 )";
-  const fe::FeModel with = build(bar(), text).model;
+  const fe::FeModel with = build(short_bar(), text).model;
   const fe::FeModel without =
-      build(bar(), text + "regions = [\"body\"]\n").model;  // of the elements alone
+      build(short_bar(), text + "regions = [\"body\"]\n").model;  // of the elements alone
   const Eigen::VectorXd change = with.loads.at("spin") - without.loads.at("spin");
   const Eigen::VectorXd resultant = with.rigid.transpose() * change;
   // Centre at (0.05, 0.1, 0.5): F = 3 (1.05, 0.1, 0); M = x cross F - n cross (J n), with
@@ -107,12 +107,13 @@ axis = [0.0, 0.0, 1.0]
   const Eigen::Vector3d force(3.15, 0.3, 0.0), centre(0.05, 0.1, 0.5), turn(-0.005, 0.006, 0.0);
   EXPECT_LT((resultant.head(3) - force).norm(), 1e-13);
   EXPECT_LT((resultant.tail(3) - (centre.cross(force) - turn)).norm(), 1e-13);
-  test::expect_parts(test::refusal_of([&] { build(bar(), text + "regions = [\"bodies\"]\n"); }),
-                     {"test.fe.toml:", "regions: found \"bodies\", expected one of: body"});
+  test::expect_parts(
+      test::refusal_of([&] { build(short_bar(), text + "regions = [\"bodies\"]\n"); }),
+      {"test.fe.toml:", "regions: found \"bodies\", expected one of: body"});
 }
 
 TEST(LoadCase, GravityIsTheWeightOfElementsAndPointMasses) {
-  const fe::FeModel model = build(bar(), R"(
+  const fe::FeModel model = build(short_bar(), R"(
 [[coupling]]
 name = "top"
 surface = "z1"
@@ -134,7 +135,7 @@ direction = [0.0, 0.0, -1.0]
 }
 
 TEST(LoadCase, ForceAndMomentOnAReferenceNodeAreItsCoordinatesForces) {
-  const fe::FeModel model = build(bar(), R"(
+  const fe::FeModel model = build(short_bar(), R"(
 [[coupling]]
 name = "top"
 surface = "z1"
@@ -157,7 +158,7 @@ moment = [0.0, 0.0, 4.0]
 TEST(LoadCase, AMomentOnPlainNodesIsRefused) {
   test::expect_parts(
       test::refusal_of([&] {
-        build(bar(),
+        build(short_bar(),
               "[[sensor]]\nname = \"s\"\nsurface = \"z1\"\nnear = [0.0, 0.0, "
               "0.4]\n[[load]]\nname = \"m\"\nkind = \"force\"\nset = \"s\"\nmoment = "
               "[1.0, 0.0, 0.0]\n");
@@ -167,11 +168,12 @@ TEST(LoadCase, AMomentOnPlainNodesIsRefused) {
 
 TEST(PointMass, EntersTheDiagonalOfItsReferenceNodeOnly) {
   const std::string coupling = "[[coupling]]\nname = \"pin\"\nsurface = \"z1\"\n";
-  const fe::FeModel bare = build(bar(), coupling).model;
-  const fe::FeModel loaded = build(bar(), coupling +
-                                              "[[point_mass]]\non = \"pin\"\nmass = 2.0\ninertia "
-                                              "= [0.3, 0.2, 0.4, 0.01, 0.02, 0.03]\n")
-                                 .model;
+  const fe::FeModel bare = build(short_bar(), coupling).model;
+  const fe::FeModel loaded =
+      build(short_bar(), coupling +
+                             "[[point_mass]]\non = \"pin\"\nmass = 2.0\ninertia "
+                             "= [0.3, 0.2, 0.4, 0.01, 0.02, 0.03]\n")
+          .model;
   Eigen::MatrixXd change = full(loaded.M) - full(bare.M);
   const std::vector<int32_t>& dofs = loaded.set("pin").dofs;
   Eigen::MatrixXd want = Eigen::MatrixXd::Zero(6, 6);
@@ -186,7 +188,7 @@ TEST(PointMass, EntersTheDiagonalOfItsReferenceNodeOnly) {
 
 TEST(PointMass, OnASoftBarGivesTheOscillatorsFrequency) {
   // A mass of 1000 bars on a clamped bar in pure stretch (nu = 0): w^2 = E A / (L (m + bar / 3)).
-  const mesh::Mesh mesh = bar();
+  const mesh::Mesh mesh = short_bar();
   set_quiet(true);
   const Config config = Config::parse(R"(
 [material.cork]
@@ -213,7 +215,7 @@ inertia = [1e6, 1e6, 1e6]
 }
 
 TEST(Damping, ARatioAtAFrequencyGivesAlpha) {
-  const fe::FeModel model = build(bar(), "[damping]\nratio = 0.02\nat_hz = 2000.0\n").model;
+  const fe::FeModel model = build(short_bar(), "[damping]\nratio = 0.02\nat_hz = 2000.0\n").model;
   const double omega = 2.0 * std::numbers::pi * 2000.0;
   EXPECT_NEAR(0.5 * model.alpha * omega, 0.02, 1e-16);
   EXPECT_EQ(model.beta, 0.0);

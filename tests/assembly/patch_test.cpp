@@ -99,24 +99,24 @@ mesh::Mesh bent_inside(mesh::CellType type) {
 
 using mesh::CellType;
 
-class EveryCell : public ::testing::TestWithParam<CellType> {};
-INSTANTIATE_TEST_SUITE_P(PatchTest, EveryCell, ::testing::ValuesIn(kAllCells),
+class PatchCell : public ::testing::TestWithParam<CellType> {};
+INSTANTIATE_TEST_SUITE_P(PatchTest, PatchCell, ::testing::ValuesIn(kAllCells),
                          [](const auto& info) {
                            return std::string(mesh::traits(info.param).name);
                          });
 
-TEST_P(EveryCell, LinearFieldIsExactOnADistortedMesh) {
+TEST_P(PatchCell, LinearFieldIsExactOnADistortedMesh) {
   EXPECT_LT(patch_error(shaken(GetParam()), linear_field()), 1e-12);
 }
 
-TEST_P(EveryCell, LinearFieldIsExactWithReducedAndFullIntegration) {
+TEST_P(PatchCell, LinearFieldIsExactWithReducedAndFullIntegration) {
   fe::Material material = kSteel;
   material.integration = {fe::Integration::kFull, fe::Integration::kReduced,
                           fe::Integration::kReduced, fe::Integration::kReduced};
   EXPECT_LT(patch_error(shaken(GetParam()), linear_field(), material), 1e-11);
 }
 
-class QuadraticCell : public EveryCell {};
+class QuadraticCell : public PatchCell {};
 INSTANTIATE_TEST_SUITE_P(PatchTest, QuadraticCell,
                          ::testing::Values(CellType::kTet10, CellType::kHex20, CellType::kWedge15,
                                            CellType::kPyramid13),

@@ -76,7 +76,7 @@ mesh::Mesh mesh_of(CellType type, const Map& map) {
 }
 
 /// A parallelepiped: reference functions contain every polynomial of x of their degree.
-Position sheared(const Position& x) {
+Position sheared_position(const Position& x) {
   return {x(0) + 0.3 * x(1), 0.8 * x(1) - 0.1 * x(2), 1.2 * x(2) + 0.2 * x(0)};
 }
 
@@ -151,8 +151,8 @@ INSTANTIATE_TEST_SUITE_P(QuadraticCell, QuadraticStress,
 /// u = (x^2 + y z, y^2 + z x, z^2 + x y): linear stress, which quadratic cells represent exactly.
 TEST_P(QuadraticStress, ThatIsLinearIsExact) {
   const bool tet = mesh::traits(GetParam()).corners == 4;
-  const mesh::Mesh mesh =
-      mesh_of(GetParam(), tet ? shaken_brick({1.0, 0.8, 1.2}, {2, 2, 2}, 0.2) : Map(sheared));
+  const mesh::Mesh mesh = mesh_of(
+      GetParam(), tet ? shaken_brick({1.0, 0.8, 1.2}, {2, 2, 2}, 0.2) : Map(sheared_position));
   const Eigen::VectorXd u = displaced(mesh.nodes, [](const Position& x) -> Position {
     return {x(0) * x(0) + x(1) * x(2), x(1) * x(1) + x(2) * x(0), x(2) * x(2) + x(0) * x(1)};
   });

@@ -36,7 +36,7 @@ CondenseOptions by(EigenMethod method, int count, double fmax_hz = 0.0) {
   return options;
 }
 
-rom::ReducedModel reduce(const CondenseOptions& options) {
+rom::ReducedModel reduce_bar(const CondenseOptions& options) {
   set_quiet(true);
   StepClock clock;
   return condense(bar(), options, clock);
@@ -52,10 +52,10 @@ VectorXd elastic_hz(const rom::ReducedModel& reduced, double limit_hz) {
 }
 
 TEST(CondenseByAmls, FrequenciesAreThoseOfBlockLanczosFromAbove) {
-  const rom::ReducedModel exact = reduce(by(EigenMethod::kBlockLanczos, 40));
+  const rom::ReducedModel exact = reduce_bar(by(EigenMethod::kBlockLanczos, 40));
   CondenseOptions options = by(EigenMethod::kAmls, 40);
   const double accuracy = options.modes.accuracy = 2e-3;
-  const rom::ReducedModel amls = reduce(options);
+  const rom::ReducedModel amls = reduce_bar(options);
   const auto& c = amls.certificate;
   ASSERT_TRUE(c.eigen_frequency_error.has_value());  // AMLS was used
   EXPECT_FALSE(exact.certificate.eigen_frequency_error.has_value());
@@ -82,10 +82,10 @@ TEST(CondenseByAmls, FrequenciesAreThoseOfBlockLanczosFromAbove) {
 }
 
 TEST(CondenseByAmls, ACutOffWithinTheErrorOfAFrequencyIsNotSaidToBeProved) {
-  const VectorXd exact = reduce(by(EigenMethod::kBlockLanczos, 40)).fixed_interface_hz;
+  const VectorXd exact = reduce_bar(by(EigenMethod::kBlockLanczos, 40)).fixed_interface_hz;
   CondenseOptions options = by(EigenMethod::kAmls, 40);
   options.modes.accuracy = 0.1;
-  const rom::ReducedModel counted = reduce(options);
+  const rom::ReducedModel counted = reduce_bar(options);
   EXPECT_LE(counted.certificate.cutoff_hz.value(), counted.fixed_interface_hz[39]);
   const VectorXd rough = counted.fixed_interface_hz;
   Index worst = 0;  // the mode with the largest error, separated from the next
@@ -94,7 +94,7 @@ TEST(CondenseByAmls, ACutOffWithinTheErrorOfAFrequencyIsNotSaidToBeProved) {
   ASSERT_GT(rough[worst] / exact[worst] - 1.0, 1e-7);
   options.modes.count = 0;
   options.modes.fmax_hz = exact[worst] + 0.02 * (rough[worst] - exact[worst]);
-  const rom::ReducedModel reduced = reduce(options);
+  const rom::ReducedModel reduced = reduce_bar(options);
   const auto& c = reduced.certificate;
   EXPECT_EQ(c.count_proved.value(), 0.0);
   EXPECT_EQ(c.count_below.value(), static_cast<double>(worst + 1));

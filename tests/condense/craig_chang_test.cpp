@@ -22,8 +22,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-rom::ReducedModel reduce(const fe::FeModel& model, std::vector<std::string> boundary,
-                         const std::string& method, int count, double fmax_hz = 0.0) {
+rom::ReducedModel reduce_free(const fe::FeModel& model, std::vector<std::string> boundary,
+                              const std::string& method, int count, double fmax_hz = 0.0) {
   CondenseOptions options;
   options.method = method;
   options.boundary = std::move(boundary);
@@ -78,24 +78,24 @@ TEST(CraigChang, OwnFrequenciesAreExactWhereGuyanAndCraigBamptonErr) {
   const VectorXd full = full_spectrum(model);
   const int count = 25;
   const double fmax = sparse::hz_of_value(0.5 * (full[5 + count] + full[6 + count]));
-  const rom::ReducedModel chang = reduce(model, boundary, "craig-chang", 0, fmax);
+  const rom::ReducedModel chang = reduce_free(model, boundary, "craig-chang", 0, fmax);
   EXPECT_EQ(chang.certificate.own_modes.value(), count);
   EXPECT_EQ(chang.certificate.count_proved.value(), 1.0);
   EXPECT_EQ(chang.certificate.accurate_to_hz.value(), fmax);
   const VectorXd own = spectrum(chang.K_rr, chang.M_rr);
   EXPECT_LT(frequency_error(own, full, 6, count), 1e-9);  // eigen-residual, squared
   EXPECT_LT(chang.certificate.frequency_error_estimate.value(), 1e-9);
-  const rom::ReducedModel guyan = reduce(model, boundary, "guyan", 0);
+  const rom::ReducedModel guyan = reduce_free(model, boundary, "guyan", 0);
   EXPECT_GT(frequency_error(spectrum(guyan.K_rr, guyan.M_rr), full, 6, 6), 1e-2);
   // As many columns of fixed-interface modes.
   const rom::ReducedModel bampton =
-      reduce(model, boundary, "craig-bampton", chang.size() - chang.n_boundary);
+      reduce_free(model, boundary, "craig-bampton", chang.size() - chang.n_boundary);
   EXPECT_GT(frequency_error(spectrum(bampton.K_rr, bampton.M_rr), full, 6, count), 1e-4);
 }
 
 TEST(CraigChang, RigidMotionsAndMassAreExactAndBoundaryCoordinatesStay) {
   const auto model = test::box_model();
-  const rom::ReducedModel reduced = reduce(model, {"right", "left"}, "craig-chang", 10);
+  const rom::ReducedModel reduced = reduce_free(model, {"right", "left"}, "craig-chang", 10);
   EXPECT_EQ(reduced.size(), 15 + 6 + 10);
   EXPECT_EQ(reduced.certificate.rigid_modes.value(), 6.0);
   EXPECT_LT(reduced.certificate.rigid_stiffness_residue.value(), 1e-10);
@@ -113,7 +113,7 @@ MatrixXd held_softly(const MatrixXd& K, const MatrixXd& R) {
 
 TEST(CraigChang, TheFreeBoundaryAnswersSelfEquilibratedLoadsAsTheFullModel) {
   const auto model = test::box_model();
-  const rom::ReducedModel reduced = reduce(model, {"left", "right"}, "craig-chang", 4);
+  const rom::ReducedModel reduced = reduce_free(model, {"left", "right"}, "craig-chang", 4);
   std::vector<int32_t> dofs = model.set("left").dofs;
   const auto& right = model.set("right").dofs;
   dofs.insert(dofs.end(), right.begin(), right.end());
@@ -138,7 +138,7 @@ TEST(CraigChang, HoldsForASolidOnItsSupports) {
   const auto model = test::solid_bar({0.2, 0.02, 0.03}, {6, 1, 1}, 0.3,
                                      "[[support]]\nname = \"foot\"\nsurface = \"x0\"\n"
                                      "[[coupling]]\nname = \"tip\"\nsurface = \"x1\"\n");
-  const rom::ReducedModel reduced = reduce(model, {"tip"}, "craig-chang", 12);
+  const rom::ReducedModel reduced = reduce_free(model, {"tip"}, "craig-chang", 12);
   EXPECT_EQ(reduced.certificate.rigid_modes.value(), 0.0);
   EXPECT_LT(frequency_error(spectrum(reduced.K_rr, reduced.M_rr), full_spectrum(model), 0, 12),
             1e-9);

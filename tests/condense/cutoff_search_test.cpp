@@ -35,7 +35,7 @@ CondenseOptions wanted(double hz, double error, const std::string& method = "cra
   return options;
 }
 
-rom::ReducedModel reduce(const fe::FeModel& model, const CondenseOptions& options) {
+rom::ReducedModel reduce_to_cutoff(const fe::FeModel& model, const CondenseOptions& options) {
   set_quiet(true);
   StepClock clock;
   return condense(model, options, clock);
@@ -48,7 +48,7 @@ TEST(CutOffSearchTest, EveryModeBelowTheWantedFrequencyMeetsTheTarget) {
   const double wanted_hz = sparse::hz_of_value(0.5 * (full[29] + full[30]));
   for (const std::string method : {"craig-bampton", "craig-chang"})
     for (const double target : {5e-3, 1e-4, 1e-6}) {
-      const rom::ReducedModel reduced = reduce(model, wanted(wanted_hz, target, method));
+      const rom::ReducedModel reduced = reduce_to_cutoff(model, wanted(wanted_hz, target, method));
       const VectorXd found = free_spectrum(reduced.K_rr, reduced.M_rr);
       for (Eigen::Index j = 6; j < 30; ++j)
         EXPECT_LT(std::sqrt(found[j] / full[j]) - 1.0, target) << method << " mode " << j;
@@ -78,8 +78,9 @@ TEST(CutOffSearchTest, AnAccuracyOutOfReachIsSaidNotClaimed) {
   const auto model = test::box_model();
   const VectorXd full =
       free_spectrum(sparse::dense_symmetric(model.K), sparse::dense_symmetric(model.M));
-  test::expect_parts(test::refusal_of<NumericsError>(
-                         [&] { reduce(model, wanted(sparse::hz_of_value(full[12]), 1e-30)); }),
+  test::expect_parts(test::refusal_of<NumericsError>([&] {
+                       reduce_to_cutoff(model, wanted(sparse::hz_of_value(full[12]), 1e-30));
+                     }),
                      {"box: accurate_to_hz: frequencies up to ", "expected 1.0e-30",
                       "the factor's rounding may not allow less"});
 }

@@ -25,7 +25,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-rom::ReducedModel reduce(const fe::FeModel& model, std::vector<std::string> boundary, int count) {
+rom::ReducedModel reduce_turning(const fe::FeModel& model, std::vector<std::string> boundary,
+                                 int count) {
   CondenseOptions options;
   options.boundary = std::move(boundary);
   options.modes.count = count;
@@ -47,7 +48,7 @@ VectorXd random_vector(Eigen::Index size, double scale, unsigned seed) {
   return VectorXd::NullaryExpr(size, [&](Eigen::Index) { return normal(generator); });
 }
 
-/// The basis of `reduce`, all DoFs in the model's order.
+/// The basis of `reduce_turning`, all DoFs in the model's order.
 MatrixXd full_basis(const fe::FeModel& model, const std::vector<std::string>& boundary, int count) {
   const PartitionedModel part = partition_model(model, boundary);
   ModeRequest request;
@@ -64,7 +65,7 @@ MatrixXd full_basis(const fe::FeModel& model, const std::vector<std::string>& bo
 
 TEST(FrameInertia, EqualsTheSumOfEquationNineOverPartialMasses) {
   const auto model = test::box_model();  // lumped: a diagonal M, T = I
-  const rom::ReducedModel reduced = reduce(model, {"left", "right"}, 12);
+  const rom::ReducedModel reduced = reduce_turning(model, {"left", "right"}, 12);
   const MatrixXd V = full_basis(model, {"left", "right"}, 12);
   const rom::FrameMotion motion = some_motion();
   const VectorXd q = random_vector(reduced.size(), 1e-3, 1);
@@ -92,7 +93,7 @@ fe::FeModel coupled_bar(const std::string& more = "") {
 }
 
 TEST(FrameInertia, ResultantsOfASolidAreThoseOfNewtonAndEuler) {
-  const rom::ReducedModel reduced = reduce(coupled_bar(), {"a", "b"}, 8);
+  const rom::ReducedModel reduced = reduce_turning(coupled_bar(), {"a", "b"}, 8);
   const rom::FrameMotion motion = some_motion();
   const VectorXd p = reduced.inertia.load(motion);
   const rom::MassProperties& mass = reduced.mass;
@@ -109,7 +110,7 @@ TEST(FrameInertia, ResultantsOfASolidAreThoseOfNewtonAndEuler) {
 }
 
 TEST(FrameInertia, CoriolisForcesDoNoWorkAndCentrifugalOnesHaveAPotential) {
-  const rom::ReducedModel reduced = reduce(coupled_bar(), {"a", "b"}, 8);
+  const rom::ReducedModel reduced = reduce_turning(coupled_bar(), {"a", "b"}, 8);
   const MatrixXd G = reduced.inertia.gyroscopic({10.0, 20.0, 30.0});
   EXPECT_LT((G + G.transpose()).norm(), 1e-14 * G.norm());
   rom::FrameMotion steady = some_motion();
@@ -124,7 +125,7 @@ TEST(FrameInertia, ABarThatTurnsAboutItsEndStretchesAsInTheory) {
   const auto model = test::solid_bar({L, 0.02, 0.02}, {12, 1, 1}, 0.0,
                                      "[[nodes]]\nname = \"foot\"\nnode_set = \"x0\"\n"
                                      "[[coupling]]\nname = \"tip\"\nsurface = \"x1\"\n");
-  const rom::ReducedModel reduced = reduce(model, {"foot", "tip"}, 4);
+  const rom::ReducedModel reduced = reduce_turning(model, {"foot", "tip"}, 4);
   rom::FrameMotion motion;
   motion.omega.z() = omega;
   const VectorXd p = reduced.inertia.load(motion);
@@ -173,7 +174,7 @@ TEST(FrameInertia, RoundTripsInTheFileAndOneOfAnotherMassIsRefused) {
     rom::write_reduced_model(file, model);
     file.commit();
   };
-  rom::ReducedModel reduced = reduce(test::box_model(), {"left", "right"}, 5);
+  rom::ReducedModel reduced = reduce_turning(test::box_model(), {"left", "right"}, 5);
   write(reduced);
   const rom::InertiaInvariants back = rom::read_reduced_model(path).inertia;
   for (size_t k = 0; k < 9; ++k) EXPECT_EQ(back.product[k], reduced.inertia.product[k]) << k;
@@ -188,7 +189,7 @@ TEST(FrameInertia, RoundTripsInTheFileAndOneOfAnotherMassIsRefused) {
 TEST(BadInput, InertiaInvariantsOfAMassThatIsNotTheCellsAreRefused) {
   const auto model = coupled_bar("[[point_mass]]\non = \"a\"\nmass = 0.5\n");
   test::expect_parts(test::refusal_of([&] {
-                       reduce(model, {"a", "b"}, 4);
+                       reduce_turning(model, {"a", "b"}, 4);
                      }),
                      {"inertia_invariants", "point masses"});
 }

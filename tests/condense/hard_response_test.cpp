@@ -34,7 +34,7 @@ fe::FeModel heavy_box() {
   return model;
 }
 
-rom::ReducedModel reduce(const fe::FeModel& model, int count, double frequency_error) {
+rom::ReducedModel reduce_for_response(const fe::FeModel& model, int count, double frequency_error) {
   CondenseOptions options;
   options.boundary = {"left", "right", "point"};
   options.modes.count = count;
@@ -98,15 +98,16 @@ double error_of(const Eigen::MatrixXcd& found, const Eigen::MatrixXcd& expected)
 
 TEST(HardB2, SurfaceVelocityAndForcesTo3KilohertzConvergeWithTheModes) {
   const fe::FeModel model = heavy_box();
-  const Response full = full_response(model, reduce(model, 50, 0.0).skin.nodes);
+  const Response full = full_response(model, reduce_for_response(model, 50, 0.0).skin.nodes);
   double velocity = 1.0, force = 1.0;
   for (const int count : {50, 100, 200}) {
-    const Response plain = reduced_response(reduce(model, count, 0.0));
+    const Response plain = reduced_response(reduce_for_response(model, count, 0.0));
     const double v = error_of(plain.velocity, full.velocity);
     const double f = error_of(plain.force, full.force);
     EXPECT_LT(v, 0.5 * velocity) << count;
     EXPECT_LT(f, 0.5 * force) << count;
-    const Response corrected = reduced_response(reduce(model, count, 5e-4));  // residual modes
+    const Response corrected =
+        reduced_response(reduce_for_response(model, count, 5e-4));  // residual modes
     EXPECT_LT(error_of(corrected.velocity, full.velocity), v) << count;
     EXPECT_LT(error_of(corrected.force, full.force), f) << count;
     velocity = v;
@@ -120,7 +121,7 @@ TEST(HardB2, SurfaceVelocityAndForcesTo3KilohertzConvergeWithTheModes) {
 TEST(HardB4, ExactlySixEigenvaluesVanish) {
   const fe::FeModel model = box_model();
   for (const int count : {1, 25}) {
-    const rom::ReducedModel reduced = reduce(model, count, 5e-4);
+    const rom::ReducedModel reduced = reduce_for_response(model, count, 5e-4);
     const VectorXd values =
         dense::symmetric_eigen(reduced.K_rr, reduced.M_rr, dense::EigenParts::kValues).values;
     // Rounding of a dense solver is eps of the largest, 1e4 times the first elastic value.
@@ -169,7 +170,7 @@ TEST(HardC1, APartThatHangsOnNothingIsNamedByItsNode) {
   const fe::FeModel model = with_loose_pair(box_model());
   const Eigen::Index loose = model.nodes.rows() - 2;
   try {
-    (void)reduce(model, 10, 0.0);
+    (void)reduce_for_response(model, 10, 0.0);
     FAIL() << "accepted";
   } catch (const InputError& error) {
     const std::string text = error.what();

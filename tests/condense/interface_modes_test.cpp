@@ -53,8 +53,8 @@ fe::FeModel lined_box() {
   return model;
 }
 
-rom::ReducedModel reduce(const fe::FeModel& model, std::vector<std::string> boundary,
-                         std::optional<InterfaceOptions> interface) {
+rom::ReducedModel reduce_with_modes(const fe::FeModel& model, std::vector<std::string> boundary,
+                                    std::optional<InterfaceOptions> interface) {
   CondenseOptions options;
   options.boundary = std::move(boundary);
   options.modes.count = 20;
@@ -71,10 +71,11 @@ VectorXd spectrum(const rom::ReducedModel& model) {
 
 TEST(InterfaceModes, AllOfThemGiveTheSameModelInOtherCoordinates) {
   const auto model = lined_box();
-  const rom::ReducedModel whole = reduce(model, {"left", "liner"}, std::nullopt);
+  const rom::ReducedModel whole = reduce_with_modes(model, {"left", "liner"}, std::nullopt);
   for (const std::vector<std::string>& sets :
        {std::vector<std::string>{"liner"}, std::vector<std::string>{"left", "liner"}}) {
-    const rom::ReducedModel turned = reduce(model, {"left", "liner"}, InterfaceOptions{sets, 1000});
+    const rom::ReducedModel turned =
+        reduce_with_modes(model, {"left", "liner"}, InterfaceOptions{sets, 1000});
     ASSERT_EQ(turned.size(), whole.size());
     const VectorXd a = spectrum(whole).tail(whole.size() - 6);
     const VectorXd b = spectrum(turned).tail(whole.size() - 6);
@@ -103,12 +104,12 @@ TEST(InterfaceModes, AllOfThemGiveTheSameModelInOtherCoordinates) {
 
 TEST(InterfaceModes, ErrorsFallWithTheirNumberAndFrequenciesComeFromAbove) {
   const auto model = lined_box();
-  const rom::ReducedModel whole = reduce(model, {"left", "liner"}, std::nullopt);
+  const rom::ReducedModel whole = reduce_with_modes(model, {"left", "liner"}, std::nullopt);
   const VectorXd exact = spectrum(whole);
   double last_frequency = 1.0, last_work = 1.0;
   for (const int count : {2, 6, 12}) {
     const rom::ReducedModel small =
-        reduce(model, {"left", "liner"}, InterfaceOptions{{"liner"}, count});
+        reduce_with_modes(model, {"left", "liner"}, InterfaceOptions{{"liner"}, count});
     EXPECT_EQ(small.size(), whole.size() - 16 + count);
     EXPECT_EQ(small.n_boundary, 9);
     const VectorXd found = spectrum(small);
@@ -127,7 +128,8 @@ TEST(InterfaceModes, KeepRigidMotionsMassInvariantsAndLoads) {
   const auto model = lined_box();
   for (const std::vector<std::string>& sets :
        {std::vector<std::string>{"liner"}, std::vector<std::string>{"left", "liner"}}) {
-    const rom::ReducedModel small = reduce(model, {"left", "liner"}, InterfaceOptions{sets, 5});
+    const rom::ReducedModel small =
+        reduce_with_modes(model, {"left", "liner"}, InterfaceOptions{sets, 5});
     EXPECT_EQ(small.certificate.rigid_modes.value(), 6.0);
     EXPECT_LT(small.certificate.mass_error.value(), 1e-11);
     EXPECT_LT(small.certificate.inertia_invariants_error.value(), 1e-10);
@@ -199,9 +201,9 @@ TEST(FilmWork, OfAPatchIsForceTimesItsDisplacement) {
 /// on the liner while the rest of the boundary is held.
 double worst_missed_work(bool by_area) {
   const auto model = lined_box();
-  const rom::ReducedModel whole = reduce(model, {"left", "liner"}, std::nullopt);
+  const rom::ReducedModel whole = reduce_with_modes(model, {"left", "liner"}, std::nullopt);
   const rom::ReducedModel small =
-      reduce(model, {"left", "liner"}, InterfaceOptions{{"liner"}, 4, 0.0, by_area});
+      reduce_with_modes(model, {"left", "liner"}, InterfaceOptions{{"liner"}, 4, 0.0, by_area});
   const MatrixXd K = whole.K_rr.block(9, 9, 16, 16), Phi = small.combined.middleCols(9, 4);
   const MatrixXd kept = Phi * dense::solve_symmetric(Phi.transpose() * K * Phi, Phi.transpose());
   const MatrixXd missed = dense::solve_symmetric(K, MatrixXd::Identity(16, 16)) - kept;
@@ -220,7 +222,7 @@ TEST(InterfaceModes, RoundTripInTheFileAndKeepPlacesInRange) {
   const std::filesystem::path path =
       std::filesystem::path(::testing::TempDir()) / "clatter_interface.rom.h5";
   const rom::ReducedModel small =
-      reduce(lined_box(), {"left", "liner"}, InterfaceOptions{{"liner"}, 5});
+      reduce_with_modes(lined_box(), {"left", "liner"}, InterfaceOptions{{"liner"}, 5});
   H5File file = H5File::create(path);
   write_provenance(file, {"clatter/rom/1", "", {}});
   rom::write_reduced_model(file, small);
@@ -234,7 +236,7 @@ TEST(InterfaceModes, RoundTripInTheFileAndKeepPlacesInRange) {
 
 TEST(BadInput, OtherProgramsAndFixedSetsDoNotGetAReducedInterface) {
   const rom::ReducedModel small =
-      reduce(lined_box(), {"left", "liner"}, InterfaceOptions{{"liner"}, 5});
+      reduce_with_modes(lined_box(), {"left", "liner"}, InterfaceOptions{{"liner"}, 5});
   test::expect_parts(test::refusal_of([&] { export_reduced(small, "part.mtx"); }),
                      {"16", "interface modes", "[interface]"});
   modes::ModesOptions modes;
@@ -259,8 +261,8 @@ TEST(BadInput, InterfacesThatMakeNoSenseAreRefused) {
   test::expect_parts(parse("modes = 3\nsize = 2\n"), {"size"});
   const auto reduced = [](std::vector<std::string> sets, bool by_area) {
     return test::refusal_of([&] {
-      reduce(lined_box(), {"left", "point", "liner"},
-             InterfaceOptions{std::move(sets), 3, 0.0, by_area});
+      reduce_with_modes(lined_box(), {"left", "point", "liner"},
+                        InterfaceOptions{std::move(sets), 3, 0.0, by_area});
     });
   };
   test::expect_parts(reduced({"left", "liner"}, false), {"interface.sets", "3 of 6"});

@@ -18,8 +18,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-rom::ReducedModel reduce(const fe::FeModel& model, std::vector<std::string> boundary,
-                         std::vector<std::string> load_shapes, const std::string& method) {
+rom::ReducedModel reduce_loaded(const fe::FeModel& model, std::vector<std::string> boundary,
+                                std::vector<std::string> load_shapes, const std::string& method) {
   CondenseOptions options;
   options.method = method;
   options.boundary = std::move(boundary);
@@ -71,20 +71,21 @@ fe::FeModel pushed_box() {
 TEST(LoadShapes, MakeTheStaticAnswerExactAtEverySkinNode) {
   const auto model = pushed_box();
   for (const std::string method : {"craig-bampton", "guyan", "craig-chang"}) {
-    const rom::ReducedModel with = reduce(model, {"left", "right"}, {"push", "pull"}, method);
+    const rom::ReducedModel with =
+        reduce_loaded(model, {"left", "right"}, {"push", "pull"}, method);
     EXPECT_EQ(with.certificate.load_shapes.value(), 2.0);
     EXPECT_LT(skin_error(model, with, "push"), 1e-9) << method;
     EXPECT_LT(skin_error(model, with, "pull"), 1e-9) << method;
   }
   // Without them, the six modes and the static shapes of the boundary leave errors of some per
   // cent.
-  const rom::ReducedModel without = reduce(model, {"left", "right"}, {}, "craig-bampton");
+  const rom::ReducedModel without = reduce_loaded(model, {"left", "right"}, {}, "craig-bampton");
   EXPECT_GT(skin_error(model, without, "push"), 1e-3);
 }
 
 TEST(LoadShapes, LookLikeModesWithUnitMass) {
   const rom::ReducedModel reduced =
-      reduce(pushed_box(), {"left", "right"}, {"push", "pull"}, "craig-bampton");
+      reduce_loaded(pushed_box(), {"left", "right"}, {"push", "pull"}, "craig-bampton");
   const auto n = reduced.size() - reduced.n_boundary;
   const MatrixXd K = reduced.K_rr.bottomRightCorner(n, n), M = reduced.M_rr.bottomRightCorner(n, n);
   EXPECT_LT((M - MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff(), 1e-10);
@@ -98,7 +99,7 @@ TEST(LoadShapes, OfUniformHeatGiveTheFreeExpansion) {
       test::solid_bar({0.12, 0.04, 0.03}, {4, 2, 2}, 0.3,
                       "[[nodes]]\nname = \"foot\"\nnode_set = \"x0\"\n"
                       "[[load]]\nname = \"heat\"\nkind = \"temperature\"\nvalue = 1.0\n");
-  const rom::ReducedModel reduced = reduce(model, {"foot"}, {"heat"}, "craig-bampton");
+  const rom::ReducedModel reduced = reduce_loaded(model, {"foot"}, {"heat"}, "craig-bampton");
   // Six rigid motions are left: the solution of least norm, from which their part is removed.
   const VectorXd u =
       reduced.skin.T * dense::least_squares(reduced.K_rr, reduced.loads.at("heat")).X;
@@ -117,8 +118,8 @@ TEST(LoadShapes, ThatDependOnOthersAreDroppedAndCounted) {
   VectorXd at_boundary = VectorXd::Zero(model.size());
   at_boundary[model.set("right").dofs.front()] = 1.0;
   model.loads["at_boundary"] = at_boundary;
-  const rom::ReducedModel reduced =
-      reduce(model, {"left", "right"}, {"push", "at_boundary", "pull", "twice"}, "craig-bampton");
+  const rom::ReducedModel reduced = reduce_loaded(
+      model, {"left", "right"}, {"push", "at_boundary", "pull", "twice"}, "craig-bampton");
   EXPECT_EQ(reduced.certificate.load_shapes.value(), 2.0);
   EXPECT_EQ(reduced.certificate.dropped_vectors.value(), 2.0);
   EXPECT_LT(skin_error(model, reduced, "twice"), 1e-9);
@@ -141,7 +142,7 @@ TEST(ShapeBasisTest, SpansWhatIsNewAndNamesWhatIsNot) {
 
 TEST(BadInput, LoadShapesOfUnknownLoadsNameThosePresent) {
   test::expect_parts(test::refusal_of([&] {
-                       reduce(pushed_box(), {"left", "right"}, {"gsa"}, "craig-bampton");
+                       reduce_loaded(pushed_box(), {"left", "right"}, {"gsa"}, "craig-bampton");
                      }),
                      {"load_shapes", "gsa", "pull", "push"});
 }
@@ -150,7 +151,7 @@ TEST(BadInput, LoadShapesOfPrescribedDisplacementsAreRefused) {
   auto model = pushed_box();
   model.prescribed["push"] = VectorXd::Zero(0);
   test::expect_parts(test::refusal_of([&] {
-                       reduce(model, {"left", "right"}, {"push"}, "craig-bampton");
+                       reduce_loaded(model, {"left", "right"}, {"push"}, "craig-bampton");
                      }),
                      {"load_shapes", "push", "prescribes"});
 }

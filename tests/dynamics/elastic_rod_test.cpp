@@ -24,7 +24,7 @@ using Eigen::VectorXd;
 
 const SliderCrank kRodCrank(0.065, testing::kRodLength, 0.001,
                             CrankClock{2000.0 * std::numbers::pi / 30.0});
-constexpr double kTime = 0.0031;
+constexpr double kRodTime = 0.0031;
 
 struct TrussRod {
   explicit TrussRod(double skew) : truss(testing::rod_truss(2e8, skew)) {
@@ -67,7 +67,7 @@ TEST(ElasticRod, MotionsHaveNoMassInCommonAndGiveTheRigidOnesBack) {
 /// is at c(t) + R(phi + theta) (x + u), its acceleration differentiated by hand.
 VectorXd forces_of_masses(const TrussRod& one, double theta, double theta_rate,
                           const VectorXd& zeta, const VectorXd& zeta_rate) {
-  const Motion<double> phi = kRodCrank.rod_angle(kTime);
+  const Motion<double> phi = kRodCrank.rod_angle(kRodTime);
   const Eigen::Matrix3d R =
       Eigen::AngleAxisd(phi.position + theta, Vector3d::UnitX()).toRotationMatrix();
   const Vector3d w(phi.velocity + theta_rate, 0.0, 0.0), w_rate(phi.acceleration, 0.0, 0.0);
@@ -91,7 +91,7 @@ TEST(ElasticRod, InertiaForcesAreThoseOfItsPointMassesToFirstOrder) {
     std::vector<int> y;
     for (int k = 0; k <= n; ++k) y.push_back(k);
     RodFrame frame("rod frame", y, one.rod.coupling, kRodCrank);
-    const Motion<double> phi = kRodCrank.rod_angle(kTime);
+    const Motion<double> phi = kRodCrank.rod_angle(kRodTime);
     VectorXd load = VectorXd::Zero(1 + n);
     load(0) = -std::sqrt(one.rod.inertia) * phi.acceleration;
     load.tail(n) = phi.velocity * phi.velocity * one.rod.coupling.stretch;
@@ -103,7 +103,7 @@ TEST(ElasticRod, InertiaForcesAreThoseOfItsPointMassesToFirstOrder) {
       const VectorXd expected =
           forces_of_masses(one, q(0) / root, v(0) / root, q.tail(n), v.tail(n)) - load;
       Response response;
-      frame.evaluate({kTime, 1e-6, 1, {}}, q, v, false, response);
+      frame.evaluate({kRodTime, 1e-6, 1, {}}, q, v, false, response);
       left.push_back((response.force - expected).norm() / size);
       EXPECT_LT((response.force - expected).norm(), 1e-2 * expected.norm()) << size;
     }
@@ -118,7 +118,7 @@ TEST(ElasticRod, TangentOfItsFrameIsThatOfTheForces) {
   std::vector<int> y;
   for (int k = 0; k <= n; ++k) y.push_back(k);
   RodFrame frame("rod frame", y, one.rod.coupling, kRodCrank);
-  const Stage stage{kTime, 2e-6, 1, {}};
+  const Stage stage{kRodTime, 2e-6, 1, {}};
   Response response, other;
   const VectorXd zero = VectorXd::Zero(1 + n), step = test::random_vector(1 + n, 8);
   frame.evaluate(stage, zero, zero, true, response);
@@ -167,8 +167,8 @@ std::unique_ptr<MasslessRod> massless() {
 
 /// Largest error of an element's tangent against central differences, relative.
 double tangent_error(ForceElement& element, const VectorXd& y, const VectorXd& before) {
-  const Stage stage{kTime, 2e-6, 1, {2e-6}};
-  element.begin_step(kTime - 4e-6);
+  const Stage stage{kRodTime, 2e-6, 1, {2e-6}};
+  element.begin_step(kRodTime - 4e-6);
   Response at, plus, minus;
   element.evaluate(stage, y, (y - before) / stage.kappa, true, at);
   double worst = 0.0;
@@ -199,17 +199,17 @@ TEST(ElasticRod, TangentsOfItsEndAndItsGuideMatchDifferences) {
       1e-10);
 }
 
-/// force . v + d(stored)/dt + lost - input over the largest of them, along y + (t - kTime) v.
+/// force . v + d(stored)/dt + lost - input over the largest of them, along y + (t - kRodTime) v.
 double power_left(ForceElement& element, const VectorXd& y, const VectorXd& v) {
   const double h = 1e-8;
   Response response;
   const auto at = [&](double time) {
-    element.evaluate({time, 1e-6, 1, {}}, y + (time - kTime) * v, v, false, response);
+    element.evaluate({time, 1e-6, 1, {}}, y + (time - kRodTime) * v, v, false, response);
     element.finish_stage({time, 1e-6, 1, {}});
-    return element.power(y + (time - kTime) * v, v);
+    return element.power(y + (time - kRodTime) * v, v);
   };
-  const double rate = (at(kTime + h).stored - at(kTime - h).stored) / (2.0 * h);
-  const Power power = at(kTime);
+  const double rate = (at(kRodTime + h).stored - at(kRodTime - h).stored) / (2.0 * h);
+  const Power power = at(kRodTime);
   const double work = response.force.dot(v);
   EXPECT_NE(power.input, 0.0);
   return std::abs(work + rate + power.lost - power.input) /
@@ -235,8 +235,8 @@ TEST(ElasticRod, ItsEndWithoutDisplacementIsThatOfARigidRod) {
   y.head<3>() = 3e-5 * test::random_vector(3, 1);
   v.head<3>() = 0.2 * test::random_vector(3, 2);
   AnchorState a, b;
-  rigid.find(kTime, y.head(3), v.head(3), a);
-  elastic.find(kTime, y, v, b);
+  rigid.find(kRodTime, y.head(3), v.head(3), a);
+  elastic.find(kRodTime, y, v, b);
   EXPECT_LT((a.d - b.d).norm(), 1e-14 * a.d.norm());
   EXPECT_LT((a.rate - b.rate).norm(), 1e-13 * a.rate.norm());
   EXPECT_LT((a.prescribed - b.prescribed).norm(), 1e-14 * a.rate.norm());
@@ -246,15 +246,15 @@ TEST(ElasticRod, ItsEndWithoutDisplacementIsThatOfARigidRod) {
 
 TEST(MasslessRod, ItsForceIsAlongTheLineOfItsEndsAndTheSameAtBoth) {
   const auto rod = massless();
-  rod->begin_step(kTime);
+  rod->begin_step(kRodTime);
   const VectorXd y = 2e-4 * test::random_vector(4, 2);
   Response response;
   // A long stage: what moves has come to rest, so that the joints' forces are those of their laws.
-  rod->evaluate({kTime, 1e6, 0, {}}, y, VectorXd::Zero(4), false, response);
+  rod->evaluate({kRodTime, 1e6, 0, {}}, y, VectorXd::Zero(4), false, response);
   const Vector2d at_pin = response.force.head<2>(), at_crank = response.force.tail<2>();
   EXPECT_GT(at_pin.norm(), 50.0);
   EXPECT_LT((at_pin + at_crank).norm(), 1e-9 * at_pin.norm());
-  const Motion<double> phi = kRodCrank.rod_angle(kTime);
+  const Motion<double> phi = kRodCrank.rod_angle(kRodTime);
   const Vector2d line =
       testing::kRodLength * rod_direction(phi.position) + y.head<2>() - y.tail<2>();
   const double across = at_pin.x() * line.y() - at_pin.y() * line.x();
@@ -272,7 +272,7 @@ TEST(MasslessRod, ContinuesFromASavedStateToTheBit) {
   const auto rod = massless(), other = massless();
   const VectorXd y = 2e-5 * test::random_vector(4, 3), v = 0.1 * test::random_vector(4, 4);
   Response a, b;
-  double time = kTime;
+  double time = kRodTime;
   for (const double weight : {0.0, 3e-6}) {
     const Stage stage{time += 1e-5, 1e-5, weight > 0.0 ? 1 : 0,
                       weight > 0.0 ? std::vector{weight} : std::vector<double>{}};

@@ -56,8 +56,8 @@ class WatchedEnergy : public EnergyBalance {
 };
 
 /// Adds a rigid contact of a point with a plane at rest.
-WatchedStop* add_stop(System& system, std::unique_ptr<Port> point, const Vector3d& on_plane,
-                      const Vector3d& normal, double restitution) {
+WatchedStop* add_watched_stop(System& system, std::unique_ptr<Port> point, const Vector3d& on_plane,
+                              const Vector3d& normal, double restitution) {
   auto stop = std::make_unique<WatchedStop>(
       "wall", PointOnPlane(std::move(point), std::make_unique<GroundPort>(on_plane), normal),
       restitution, 1e8);
@@ -104,7 +104,7 @@ TEST(Impact, OfAFreeRodAtItsEndGivesItTheSpinOfTheTextbook) {
   start.velocity = {0.2, 0.0, -v};
   const SpatialBody rod =
       add_spatial_body(system, make_spatial_body("rod", m, {1e-6, moment, moment}, start));
-  add_stop(system, rod.port({0.5 * l, 0.0, 0.0}), Vector3d::Zero(), Vector3d::UnitZ(), e);
+  add_watched_stop(system, rod.port({0.5 * l, 0.0, 0.0}), Vector3d::Zero(), Vector3d::UnitZ(), e);
   const auto method = started(system, fine_steps());
   step_to_impact(*method, 0.01);
   const double impulse = (1.0 + e) * v * m / 4.0;
@@ -132,7 +132,7 @@ TEST(Impact, OfATumblingBoxKeepsTheMomentaThatNoNormalImpulseChanges) {
   const SpatialBody box = add_spatial_body(system, make_spatial_body("box", m, J, start));
   // The plane is 2 mm before the corner.
   const Vector3d there = start.rotation * corner - 2e-3 * n;
-  WatchedStop* const wall = add_stop(system, box.port(corner), there, n, e);
+  WatchedStop* const wall = add_watched_stop(system, box.port(corner), there, n, e);
   WatchedEnergy energy(system);
   const auto method = make_integrator(system, fine_steps());
   method->set_observer(&energy);
@@ -191,8 +191,9 @@ TEST(Impact, IsTheSameForABodyInAPlaneAndInSpace) {
   const SpatialBody body =
       add_spatial_body(space, make_spatial_body("plate", m, {0.002, 0.003, moment}, free));
   for (size_t k = 0; k < 2; ++k) {
-    add_stop(plane, std::make_unique<PlanarPort>(y, corner[k].head<2>()), wall[k], normal[k], e);
-    add_stop(space, body.port(corner[k]), wall[k], normal[k], e);
+    add_watched_stop(plane, std::make_unique<PlanarPort>(y, corner[k].head<2>()), wall[k],
+                     normal[k], e);
+    add_watched_stop(space, body.port(corner[k]), wall[k], normal[k], e);
   }
   const auto one = started(plane, options), other = started(space, options);
   while (one->state().time < end) one->step(end);
@@ -234,7 +235,7 @@ TEST(Impact, OnANodeOfAFloatingTrussMovesThatMassAlone) {
       motion(hit, 0.0, system.interface(system.eta_start()), system.interface(system.v_start()));
   const Vector3d n = -there.velocity.normalized();
   const double e = 0.6;
-  WatchedStop* const wall = add_stop(system, port(hit), there.position - 1e-3 * n, n, e);
+  WatchedStop* const wall = add_watched_stop(system, port(hit), there.position - 1e-3 * n, n, e);
   WatchedEnergy energy(system);
   const auto method = make_integrator(system, fine_steps());
   method->set_observer(&energy);

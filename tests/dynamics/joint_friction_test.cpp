@@ -16,7 +16,7 @@
 namespace clatter::dynamics {
 namespace {
 
-const SliderCrank kCrank(0.065, 0.21, 0.001, CrankClock{2000.0 * std::numbers::pi / 30.0});
+const SliderCrank kRubbedCrank(0.065, 0.21, 0.001, CrankClock{2000.0 * std::numbers::pi / 30.0});
 constexpr double kTime = 0.0031;
 
 // Coordinates: pin y, z, rotation; rod y, z, rotation.
@@ -27,11 +27,11 @@ std::unique_ptr<Anchor> pin_point() {
   return std::make_unique<LinearAnchor>(point);
 }
 std::unique_ptr<Anchor> rod_point() {
-  return std::make_unique<RodAnchor>(std::vector<int>{3, 4, 5}, kCrank, 0.14);
+  return std::make_unique<RodAnchor>(std::vector<int>{3, 4, 5}, kRubbedCrank, 0.14);
 }
 JointSide pin_side() { return {2, {}}; }
 JointSide rod_turn() {
-  return {5, [](double time) { return kCrank.rod_angle(time).velocity; }};
+  return {5, [](double time) { return kRubbedCrank.rod_angle(time).velocity; }};
 }
 FrictionJoint friction_joint(PinFriction friction) {
   return FrictionJoint("pin", pin_point(), rod_point(), RadialLaw{1e-5, 1e7, 1e11, 1.5, 2e4},
@@ -61,11 +61,11 @@ TEST(FrictionJoint, HasTheMomentOfCoulombOnBothSides) {
   FrictionJoint joint = friction_joint({0.1 * 0.02, 1e-3});
   Eigen::VectorXd y = Eigen::VectorXd::Zero(6), v = y;
   y(0) = 4e-5;
-  const double ideal = kCrank.rod_angle(kTime).velocity;
+  const double ideal = kRubbedCrank.rod_angle(kTime).velocity;
   v(5) = 1.0 - ideal;
   Response response;
   // Without the damper: the rod's end rests, so its centre moves against the rotation.
-  const Eigen::Vector2d end = 0.14 * rod_direction(kCrank.rod_angle(kTime).position);
+  const Eigen::Vector2d end = 0.14 * rod_direction(kRubbedCrank.rod_angle(kTime).position);
   v(3) = end.y() * v(5);
   v(4) = -end.x() * v(5);
   joint.evaluate({kTime, 1e-6, 1, {}}, gathered(joint, y), gathered(joint, v), false, response);
@@ -108,7 +108,7 @@ TEST(JournalJoint, IsPetroffsBearingWhenCentred) {
   Response response;
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(6);
   joint.evaluate({kTime, 1e-6, 1, {}}, rest, rest, false, response);
-  const double swing = kCrank.rod_angle(kTime).velocity;
+  const double swing = kRubbedCrank.rod_angle(kTime).velocity;
   // pi mu b d^2 w / (2 psi) on the pin, in the direction of the rod's rotation.
   const double petroff = std::numbers::pi * 0.008 * 0.03 * 0.04 * 0.04 * swing / (2.0 * 2e-3);
   EXPECT_NEAR(response.force(place(joint, 2)), petroff, 1e-9 * std::abs(petroff));
@@ -137,7 +137,7 @@ TEST(JournalJoint, ForcesAndMomentsOfBothSidesCancel) {
   EXPECT_NEAR(f(0) + f(3), 0.0, 1e-12 * std::abs(f(0)));
   EXPECT_NEAR(f(1) + f(4), 0.0, 1e-12 * std::abs(f(1)));
   // About the bearing's centre: the force on the pin acts at the pin's, d away.
-  const Eigen::Vector2d end = 0.14 * rod_direction(kCrank.rod_angle(kTime).position);
+  const Eigen::Vector2d end = 0.14 * rod_direction(kRubbedCrank.rod_angle(kTime).position);
   const double on_rod = f(5) - (end.x() * f(4) - end.y() * f(3));
   const double couple = (y(0) - y(3)) * f(1) - (y(1) - y(4)) * f(0);
   EXPECT_NEAR(f(2) + on_rod + couple, 0.0, 1e-9 * std::abs(couple) + 1e-12 * std::abs(f(5)));
@@ -148,13 +148,13 @@ TEST(JournalJoint, SeesTheMeanRotationOfPinAndRod) {
   // Pin and rod turning at w in opposite directions carry nothing; both at w carry as one at 2 w
   // against one at rest: the wedge has the mean of both speeds.
   JournalJoint joint = journal_joint();
-  const double ideal = kCrank.rod_angle(kTime).velocity;
+  const double ideal = kRubbedCrank.rod_angle(kTime).velocity;
   const auto force = [&](double pin, double rod) {
     Eigen::VectorXd y = Eigen::VectorXd::Zero(6), v = y;
     y(0) = 2e-5;
     v(2) = pin;
     v(5) = rod - ideal;
-    const Eigen::Vector2d end = 0.14 * rod_direction(kCrank.rod_angle(kTime).position);
+    const Eigen::Vector2d end = 0.14 * rod_direction(kRubbedCrank.rod_angle(kTime).position);
     v(3) = end.y() * v(5);
     v(4) = -end.x() * v(5);
     Response response;

@@ -43,13 +43,13 @@ double harmonic_error(double omega, double damping, double w, Eigen::Index n) {
   return worst / std::abs(v);
 }
 
-struct Oscillator {
+struct ForcedOscillator {
   const char* name;
   double omega, damping;
 };
-void PrintTo(const Oscillator& oscillator, std::ostream* out) { *out << oscillator.name; }
+void PrintTo(const ForcedOscillator& oscillator, std::ostream* out) { *out << oscillator.name; }
 
-class PeriodicResponse : public ::testing::TestWithParam<Oscillator> {};
+class PeriodicResponse : public ::testing::TestWithParam<ForcedOscillator> {};
 
 TEST_P(PeriodicResponse, IsTheHarmonicSolution) {
   const auto [name, omega, damping] = GetParam();
@@ -57,13 +57,15 @@ TEST_P(PeriodicResponse, IsTheHarmonicSolution) {
     EXPECT_LT(harmonic_error(omega, damping, 2.0 * kPi * line, 200), 1e-9) << line;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Oscillators, PeriodicResponse,
-    ::testing::Values(Oscillator{"soft", 2.0, 0.1}, Oscillator{"stiff", 1e6, 1e3},
-                      Oscillator{"overdamped", 20.0, 500.0}, Oscillator{"critical", 20.0, 40.0},
-                      Oscillator{"rigid", 0.0, 0.0}, Oscillator{"dragged", 0.0, 3.0},
-                      Oscillator{"resonant", 2.0 * kPi * 3.0, 1.0}),
-    [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Oscillators, PeriodicResponse,
+                         ::testing::Values(ForcedOscillator{"soft", 2.0, 0.1},
+                                           ForcedOscillator{"stiff", 1e6, 1e3},
+                                           ForcedOscillator{"overdamped", 20.0, 500.0},
+                                           ForcedOscillator{"critical", 20.0, 40.0},
+                                           ForcedOscillator{"rigid", 0.0, 0.0},
+                                           ForcedOscillator{"dragged", 0.0, 3.0},
+                                           ForcedOscillator{"resonant", 2.0 * kPi * 3.0, 1.0}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 TEST(PeriodicResponseOf, ConstantForceIsTheStaticOne) {
   const RowMatrix force = RowMatrix::Constant(51, 2, 3.0);

@@ -19,9 +19,9 @@ using Eigen::Vector3d;
 using testing::arbitrary;
 using testing::started;
 
-constexpr double kMass = 1.5, kRadius = 0.2, kGravity = 9.81;
-const Vector3d kMoments(kMass* kRadius* kRadius / 4.0, kMass* kRadius* kRadius / 4.0,
-                        kMass* kRadius* kRadius / 2.0);
+constexpr double kDiscMass = 1.5, kRadius = 0.2, kGravity = 9.81;
+const Vector3d kMoments(kDiscMass* kRadius* kRadius / 4.0, kDiscMass* kRadius* kRadius / 4.0,
+                        kDiscMass* kRadius* kRadius / 2.0);
 const DiscPlane kPlane{Vector3d::Zero(), Vector3d::UnitZ(), 1e7, 1e9, 1.0, 1e-5};
 
 Vector3d lowest(const Vector3d& axis) {
@@ -44,9 +44,9 @@ Vector3d spin_rate(const Roll& at) {
   const Vector3d d_rate = kRadius / slope.norm() * (slope_rate - u * u.dot(slope_rate));
   const Matrix3d J = at.A * kMoments.asDiagonal() * at.A.transpose();
   const Matrix3d about_contact =
-      J + kMass * (d.squaredNorm() * Matrix3d::Identity() - d * d.transpose());
+      J + kDiscMass * (d.squaredNorm() * Matrix3d::Identity() - d * d.transpose());
   return about_contact.inverse() *
-         (kMass * d.cross(kGravity * z - at.spin.cross(d_rate)) - at.spin.cross(J * at.spin));
+         (kDiscMass * d.cross(kGravity * z - at.spin.cross(d_rate)) - at.spin.cross(J * at.spin));
 }
 
 /// Those equations by the classical Runge-Kutta method; the columns of A are free vectors.
@@ -75,11 +75,12 @@ struct Disc {
   SpatialBody body;
 
   explicit Disc(const Roll& roll)
-      : body(add_spatial_body(system, make_spatial_body("disc", kMass, kMoments, start(roll)))) {
+      : body(
+            add_spatial_body(system, make_spatial_body("disc", kDiscMass, kMoments, start(roll)))) {
     system.add_element(std::make_unique<DiscContact>("edge", body.coordinates, body.frame,
                                                      Vector3d::UnitZ(), kRadius, kPlane));
     Eigen::VectorXd weight = Eigen::VectorXd::Zero(kSpatial);
-    weight(2) = std::sqrt(kMass);
+    weight(2) = std::sqrt(kDiscMass);
     system.add_load({"gravity", 0, weight, [](double) { return -kGravity; }});
   }
   static SpatialMotion start(const Roll& roll) {
@@ -88,7 +89,7 @@ struct Disc {
     motion.spin = roll.A.transpose() * roll.spin;
     motion.centre = roll.centre;
     // As deep as its weight presses it in.
-    motion.centre.z() -= kMass * kGravity / kPlane.stiffness;
+    motion.centre.z() -= kDiscMass * kGravity / kPlane.stiffness;
     motion.velocity = roll.velocity();
     return motion;
   }
@@ -129,8 +130,8 @@ TEST(RollingDisc, SteadyPrecessionKeepsItsTiltAndItsCircle) {
   //   P sin b (C w - A P cos b) = - m R^2 P w sin b - m g R cos b,
   // gives the spin w about the axis; the centre circles at the distance R w / P.
   const double tilt = 1.2, P = 4.0, A = kMoments(0), C = kMoments(2);
-  const double w = (A * P * P * std::sin(tilt) - kMass * kGravity * kRadius) * std::cos(tilt) /
-                   (P * std::sin(tilt) * (C + kMass * kRadius * kRadius));
+  const double w = (A * P * P * std::sin(tilt) - kDiscMass * kGravity * kRadius) * std::cos(tilt) /
+                   (P * std::sin(tilt) * (C + kDiscMass * kRadius * kRadius));
   Roll start = leaning(tilt);
   start.spin = w * start.A.col(2) - P * std::sin(tilt) * lowest(start.A.col(2)) / kRadius;
   start.centre.x() = -kRadius * w / P;

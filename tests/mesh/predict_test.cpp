@@ -38,7 +38,7 @@ TEST(Predict, CellsWithinAFactorOfTwo) {
 }
 
 /// Refused before any cell is made.
-void expect_refused(const std::string& toml, const std::vector<std::string>& says) {
+void expect_prediction_refused(const std::string& toml, const std::vector<std::string>& says) {
   const Config config = Config::parse(toml, "part.toml");
   GmshSession session(config.text("name"));
   const LengthUnit unit = read_length_unit(config);
@@ -53,18 +53,19 @@ void expect_refused(const std::string& toml, const std::vector<std::string>& say
 }
 
 TEST(Predict, ASizeTypedInMetresIsRefusedBeforeMeshing) {
-  expect_refused(kBox + "element_size_mm = 0.012\n",
-                 {"part.toml", "element_size_mm = 0.012", "60 x 20 x 10 mm", "e+10 cells",
-                  "max_cells", "unit is right"});
-  expect_refused("length_unit = 'm'\n" + kBox + "element_size_mm = 12\n",
-                 {"6e+04 x 2e+04 x 1e+04 mm"});
-  expect_refused(
+  expect_prediction_refused(kBox + "element_size_mm = 0.012\n",
+                            {"part.toml", "element_size_mm = 0.012", "60 x 20 x 10 mm",
+                             "e+10 cells", "max_cells", "unit is right"});
+  expect_prediction_refused("length_unit = 'm'\n" + kBox + "element_size_mm = 12\n",
+                            {"6e+04 x 2e+04 x 1e+04 mm"});
+  expect_prediction_refused(
       kPredictedTube + "element_size_mm = 10\nelements_per_turn = 900\nmax_cells = 1e5\n",
       {"elements_per_turn = 900"});
 }
 
 TEST(Predict, TheLimitIsASettingAndMustBePositive) {
-  expect_refused(kBox + "element_size_mm = 6\nmax_cells = 50\n", {"at most 50 (max_cells)"});
+  expect_prediction_refused(kBox + "element_size_mm = 6\nmax_cells = 50\n",
+                            {"at most 50 (max_cells)"});
   EXPECT_NO_THROW(mesh_toml(kBox + "element_size_mm = 6\nmax_cells = 5000\n"));
   test::expect_parts(test::refusal_of([&] { mesh_toml(kBox + "max_cells = 0\n"); }),
                      {"part.toml:", "mesh.max_cells: found 0, expected a number above 0"});

@@ -17,7 +17,7 @@ namespace {
 
 using testing::Folder;
 
-Mesh brick_of(CellType type) {
+Mesh unv_brick(CellType type) {
   assembly::testing::BlockOptions options;
   options.type = type;
   return assembly::testing::block_mesh({2, 1, 1}, assembly::testing::brick({0.3, 0.2, 0.1}),
@@ -49,7 +49,7 @@ class UnvOfEachKind : public ::testing::TestWithParam<CellType> {};
 
 // Gmsh's order of nodes is ours, so that what it reads must be what we have, node by node.
 TEST_P(UnvOfEachKind, GmshReadsTheSameCellsFacesAndGroups) {
-  const Mesh mesh = brick_of(GetParam());
+  const Mesh mesh = unv_brick(GetParam());
   const Folder folder;
   std::string text = unv_text(mesh);
   text.replace(text.find("\n  2467\n"), 8, "\n  2477\n");
@@ -101,7 +101,7 @@ TEST(Unv, NodeSetsAndFacesInTwoSurfacesAreWritten) {
 }
 
 TEST(Unv, PyramidsAndLongNamesAreRefused) {
-  Mesh mesh = brick_of(CellType::kPyramid5);
+  Mesh mesh = unv_brick(CellType::kPyramid5);
   test::expect_parts(test::refusal_of([&] { unv_text(mesh); }),
                      {": universal files have no element for pyramid5"});
   mesh = testing::one_cell();

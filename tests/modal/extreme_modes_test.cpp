@@ -30,7 +30,9 @@ using test::expect_at_most;
 constexpr sparse::EigenMethod kExact[] = {sparse::EigenMethod::kBlockLanczos,
                                           sparse::EigenMethod::kArpack};
 
-mesh::Mesh bar() { return test::bar_mesh({0.3, 0.1, 0.1}, {4, 2, 2}, mesh::CellType::kHex20); }
+mesh::Mesh short_bar() {
+  return test::bar_mesh({0.3, 0.1, 0.1}, {4, 2, 2}, mesh::CellType::kHex20);
+}
 
 sparse::ModeSet modes_of(const FeModel& model, int count,
                          sparse::EigenMethod method = sparse::EigenMethod::kBlockLanczos) {
@@ -61,10 +63,10 @@ double largest_change(const VectorXd& found, const VectorXd& expected, Eigen::In
 }
 
 TEST(HardF2, APartFarFromTheOriginHasItsMassPropertiesAndModes) {
-  const FeModel near = test::model_of(bar(), test::steel_toml());
+  const FeModel near = test::model_of(short_bar(), test::steel_toml());
   const VectorXd expected = modes_of(near, 16).frequencies_hz();
   for (const double lengths : {1e3, 1e5}) {
-    mesh::Mesh mesh = bar();
+    mesh::Mesh mesh = short_bar();
     const Eigen::RowVector3d offset = 0.3 * lengths * Eigen::RowVector3d(0.8, -0.6, 0.5);
     mesh.nodes.rowwise() += offset;
     const FeModel far = test::model_of(mesh, test::steel_toml());
@@ -87,10 +89,10 @@ TEST(HardF3, AHeavyPointMassLeavesThePartItsMassProperties) {
   // The mass is in the end face's centre: the bar turns about it as if that were fixed.
   for (const double mass : {1.0, 1e9}) {
     const FeModel model = test::model_of(
-        bar(), test::steel_toml() +
-                   "[[coupling]]\nname = \"hub\"\nnode_set = \"x0\"\n[[point_mass]]\non = "
-                   "\"hub\"\nmass = " +
-                   std::to_string(mass) + "\n");
+        short_bar(), test::steel_toml() +
+                         "[[coupling]]\nname = \"hub\"\nnode_set = \"x0\"\n[[point_mass]]\non = "
+                         "\"hub\"\nmass = " +
+                         std::to_string(mass) + "\n");
     // 24 kg of 0.3 x 0.1 x 0.1 m at x = 0.15 m and the mass at x = 0.
     const double reduced = 24.0 * mass / (24.0 + mass);
     const double yy = 24.0 * (0.09 + 0.01) / 12.0 + reduced * 0.0225;
@@ -106,7 +108,7 @@ TEST(HardF3, AHeavyPointMassLeavesThePartItsMassProperties) {
 
 TEST(HardF5, TouchingPartsAndCopiesKeepAllTheirModes) {
   // Eight equal bars, each touching the next with coincident nodes: all frequencies eight times.
-  const mesh::Mesh one = bar();
+  const mesh::Mesh one = short_bar();
   const VectorXd expected = dense_hz(test::model_of(one, test::steel_toml()));
   mesh::Mesh all = one;
   for (int copy = 1; copy < 8; ++copy) {
@@ -158,9 +160,9 @@ TEST(HardF6, CellsThatAreTooFlatAreRefusedWhereRoundingLeavesNoDigit) {
 
 TEST(HardF10, UnitsOfLengthFromNanometresToMegametresGiveTheSameModes) {
   const VectorXd expected =
-      modes_of(test::model_of(bar(), test::steel_toml()), 14).frequencies_hz();
+      modes_of(test::model_of(short_bar(), test::steel_toml()), 14).frequencies_hz();
   for (const double scale : {1e-9, 1e-6, 1e3, 1e6}) {
-    mesh::Mesh mesh = bar();
+    mesh::Mesh mesh = short_bar();
     mesh.nodes *= scale;
     const sparse::ModeSet modes = modes_of(test::model_of(mesh, test::steel_toml()), 14);
     EXPECT_EQ(modes.rigid, 6);
@@ -171,7 +173,7 @@ TEST(HardF10, UnitsOfLengthFromNanometresToMegametresGiveTheSameModes) {
 }
 
 TEST(HardF11, PermutedNodesAndCellsGiveTheSameModes) {
-  const mesh::Mesh given = bar();
+  const mesh::Mesh given = short_bar();
   const VectorXd expected = dense_hz(test::model_of(given, test::steel_toml()));
   std::mt19937 random(5);
   for (int k = 0; k < 3; ++k) {
@@ -205,11 +207,12 @@ FeModel on_springs(double stiffness) {
         "[[spring]]\nname = \"s{0}\"\nstiffness = {1:e}\nterms = [{{ point = \"p\", direction = "
         "\"{0}\" }}]\n",
         direction, stiffness);
-  return test::model_of(bar(), toml);
+  return test::model_of(short_bar(), toml);
 }
 
 TEST(HardF12, SpringsFromSoftToRigidGiveModesFromFreeToClamped) {
-  const VectorXd free_hz = modes_of(test::model_of(bar(), test::steel_toml()), 12).frequencies_hz();
+  const VectorXd free_hz =
+      modes_of(test::model_of(short_bar(), test::steel_toml()), 12).frequencies_hz();
   const VectorXd clamped = modes_of(on_springs(1e15), 8).frequencies_hz();
   // Beyond 1e15 N/m nothing moves there any more, up to forces that no double could subtract.
   for (const double stiffness : {1e18, 1e25}) {
@@ -243,7 +246,7 @@ TEST(HardF12, SpringsFromSoftToRigidGiveModesFromFreeToClamped) {
 }
 
 TEST(HardF13, ALimitExactlyAtADoubleEigenvalueIsCountedOrRefused) {
-  const FeModel model = test::model_of(bar(), test::steel_toml());
+  const FeModel model = test::model_of(short_bar(), test::steel_toml());
   const sparse::ModeSet all = modes_of(model, 10);
   const double pair = all.frequencies_hz()[6];
   ASSERT_NEAR(all.frequencies_hz()[7] / pair, 1.0, 1e-10);

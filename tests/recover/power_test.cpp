@@ -18,7 +18,6 @@ namespace {
 
 using namespace testing;
 using Complex = std::complex<double>;
-constexpr Complex kI{0.0, 1.0};
 
 TEST(RadiatedPower, UniformNormalVelocityGivesHalfRhoCSVSquaredExactly) {
   // The two x sides of a box move outward with v; the other four only move tangentially.
@@ -122,13 +121,13 @@ struct Monopole {
   double density = 1.204, sound_speed = 343.2;
   Complex pressure(const Eigen::Vector3d& x) const {
     const double r = (x - centre).norm();
-    return A * std::exp(-kI * k * r) / r;
+    return A * std::exp(-Complex(0.0, 1.0) * k * r) / r;
   }
   Eigen::Vector3cd velocity(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d d = x - centre;
     const double r = d.norm();
-    const Complex slope = pressure(x) * (-kI * k - 1.0 / r);
-    return (-slope / (kI * k * sound_speed * density) / r) * d.cast<Complex>();
+    const Complex slope = pressure(x) * (-Complex(0.0, 1.0) * k - 1.0 / r);
+    return (-slope / (Complex(0.0, 1.0) * k * sound_speed * density) / r) * d.cast<Complex>();
   }
   double power() const { return 2 * std::numbers::pi * std::norm(A) / (density * sound_speed); }
 };
@@ -171,7 +170,7 @@ TEST(Order, PulsatingSphereHasItsRadiationEfficiency) {
         {mesh.nodes, mesh.triangles}, rom::SkinRows(T), geometry,
         choose_panels({{.name = "skin"}}, mesh.nodes, mesh.triangles, geometry));
     Eigen::MatrixXcd q(1, 2);
-    q << 1.0, kI;
+    q << 1.0, Complex(0.0, 1.0);
     const Air air{source.density, source.sound_speed, 1.0};
     const double mean_square = 0.5 * normal_velocity_integral(forms[0].W, q)[0] / geometry.area;
     const double erp = equivalent_radiated_power(air, geometry.area, mean_square);

@@ -14,16 +14,17 @@ namespace clatter::sound {
 namespace {
 
 using namespace testing;
-constexpr double kPi = std::numbers::pi;
 
 TEST(SphericalHarmonics, LowestAreConstantAndCoordinates) {
   const RowMatrix e = Eigen::RowVector3d(0.6, -0.48, 0.64);
   const Eigen::MatrixXd Y = spherical_harmonics(e, 2);
-  EXPECT_NEAR(Y(0, 0), std::sqrt(1.0 / (4.0 * kPi)), 1e-15);
+  EXPECT_NEAR(Y(0, 0), std::sqrt(1.0 / (4.0 * std::numbers::pi)), 1e-15);
   for (const auto& [column, axis] : {std::pair{1, 1}, {2, 2}, {3, 0}})  // m = -1, 0, 1: y, z, x
-    EXPECT_NEAR(Y(0, column), std::sqrt(3.0 / (4.0 * kPi)) * e(0, axis), 1e-15) << column;
-  EXPECT_NEAR(Y(0, 4), std::sqrt(15.0 / (4.0 * kPi)) * e(0, 0) * e(0, 1), 1e-15);
-  EXPECT_NEAR(Y(0, 6), std::sqrt(5.0 / (16.0 * kPi)) * (3.0 * e(0, 2) * e(0, 2) - 1.0), 1e-15);
+    EXPECT_NEAR(Y(0, column), std::sqrt(3.0 / (4.0 * std::numbers::pi)) * e(0, axis), 1e-15)
+        << column;
+  EXPECT_NEAR(Y(0, 4), std::sqrt(15.0 / (4.0 * std::numbers::pi)) * e(0, 0) * e(0, 1), 1e-15);
+  EXPECT_NEAR(Y(0, 6), std::sqrt(5.0 / (16.0 * std::numbers::pi)) * (3.0 * e(0, 2) * e(0, 2) - 1.0),
+              1e-15);
 }
 
 TEST(SphericalHarmonics, AreOrthonormalUnderTheQuadratureOfDirections) {

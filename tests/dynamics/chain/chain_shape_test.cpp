@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector2d;
 using testing::TimingDrive;
 
-constexpr int kLinks = 130;
+constexpr int kDriveLinks = 130;
 
 class ChainShape : public ::testing::Test {
  protected:
@@ -60,7 +60,7 @@ TEST_F(ChainShape, IsThatOfTheLinksAndOfWhatTheyRunOver) {
     EXPECT_GE(time[k], 5e-5 * static_cast<double>(k));
     EXPECT_LE(time[k], 5e-5 * static_cast<double>(k) + 2.0e-5);
   }
-  const std::vector<int64_t> expected{8, kLinks};
+  const std::vector<int64_t> expected{8, kDriveLinks};
   for (const char* field : {"x", "y", "angle", "tension"})
     EXPECT_EQ(file.shape(std::string("chain/chain/") + field), expected);
   EXPECT_EQ(file.get_string("chain/chain", "plane"), "xy");
@@ -75,8 +75,8 @@ TEST_F(ChainShape, IsThatOfTheLinksAndOfWhatTheyRunOver) {
                   angle = file.read_rows("chain/chain/angle"),
                   tension = file.read_rows("chain/chain/tension");
   const auto link = [&](int j) { return Eigen::Vector3d(x(7, j), y(7, j), angle(7, j)); };
-  for (int j = 0; j < kLinks; ++j) {
-    const int next = (j + 1) % kLinks;
+  for (int j = 0; j < kDriveLinks; ++j) {
+    const int next = (j + 1) % kDriveLinks;
     const Vector2d gap = moved(link(next), {-4e-3, 0.0}) - moved(link(j), {4e-3, 0.0});
     // Single precision resolves 3e-8 m; damping of 200 N s/m adds some newtons.
     EXPECT_NEAR(gap.norm(), 1e-7 * std::abs(tension(7, j)), 3e-6) << j;

@@ -22,9 +22,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kSpeed = 2000.0 * std::numbers::pi / 30.0;  // of the clock [rad/s]
-constexpr double kBore = 0.0535, kAmbient = 1e5;             // radius [m], [Pa]
-constexpr double kViscosity = 0.02, kReversal = 0.05;        // [Pa s], [m/s]
+constexpr double kClockSpeed = 2000.0 * std::numbers::pi / 30.0;  // of the clock [rad/s]
+constexpr double kBore = 0.0535, kAmbient = 1e5;                  // radius [m], [Pa]
+constexpr double kViscosity = 0.02, kReversal = 0.05;             // [Pa s], [m/s]
 
 // All loads act from the start on: while inertia forces grow, motions depend on the clock.
 constexpr const char* kAtOnce = "[time]\ncycles = 1\nramp_deg = 0\noutput_step_us = 50\n";
@@ -54,7 +54,7 @@ class RigidEngine {
   /// method of fourth order in steps of at most 2 us.
   std::vector<double> angles(const std::vector<double>& times) const {
     std::vector<double> found;
-    double q = -2.0 * std::numbers::pi, v = kSpeed, last = q / kSpeed;
+    double q = -2.0 * std::numbers::pi, v = kClockSpeed, last = q / kClockSpeed;
     for (const double time : times) {
       const double span = time - last;
       last = time;
@@ -146,7 +146,7 @@ TEST_F(FreeCranks, TurnAsARigidSliderCrankDoes) {
   const auto angles = engine.angles(time);
   double most = 0.0, apart = 0.0;
   for (size_t k = 0; k < time.size(); ++k) {
-    const double expected = angles[k] - kSpeed * time[k];
+    const double expected = angles[k] - kClockSpeed * time[k];
     most = std::max(most, std::abs(expected));
     apart = std::max(apart, std::abs(deviation[k] - expected));
   }
@@ -158,7 +158,8 @@ TEST_F(FreeCranks, TurnAsARigidSliderCrankDoes) {
 }
 
 /// A clock whose speed varies, but not at the start.
-constexpr const char* kUneven = "[[engine.order]]\norder = 2\namplitude_rpm = 60\nphase_deg = 90\n";
+constexpr const char* kUnevenOrder =
+    "[[engine.order]]\norder = 2\namplitude_rpm = 60\nphase_deg = 90\n";
 
 TEST_F(FreeCranks, MoveWhateverTheirClockDoes) {
   // The clock is a choice of coordinates: skirt, rings and shapes move as with any other.
@@ -175,7 +176,7 @@ TEST_F(FreeCranks, MoveWhateverTheirClockDoes) {
   std::map<std::string, std::vector<double>> of[2];
   for (const int k : {0, 1}) {
     const H5File file =
-        recorded(scene(described + (k == 1 ? kUneven : "")), k == 1 ? "uneven" : "even");
+        recorded(scene(described + (k == 1 ? kUnevenOrder : "")), k == 1 ? "uneven" : "even");
     EXPECT_LT(result_.energy_residue, 1e-5);
     for (const char* name :
          {"crank_speed", "piston_lateral", "piston_tilt", "side_force", "friction_force",
@@ -205,7 +206,7 @@ TEST_F(FreeCranks, StretchAnElasticRodWhateverTheirClockDoes) {
       "torque_n_m = 0\n";
   RowMatrix of[2];
   for (const int k : {0, 1}) {
-    of[k] = recorded(scene(described + (k == 1 ? kUneven : "")), k == 1 ? "uneven" : "even")
+    of[k] = recorded(scene(described + (k == 1 ? kUnevenOrder : "")), k == 1 ? "uneven" : "even")
                 .read_rows("bodies/rod/q");
     EXPECT_LT(result_.energy_residue, 1e-5);
   }

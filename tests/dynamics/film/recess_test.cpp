@@ -173,7 +173,7 @@ TEST(Recess, AnEntireSkirtOfGrooveCarriesOnlyItsPressureWhichBalances) {
   EXPECT_LT(piston.response.force.head<2>().cwiseAbs().maxCoeff(), 1e-7);
 }
 
-PistonLinerOptions busy() {
+PistonLinerOptions busy_recess() {
   PistonLinerOptions options = scene();
   options.liner_layer.emplace();
   options.liner_layer->splash = 2e-3;
@@ -195,7 +195,7 @@ PistonLinerOptions busy() {
 }
 
 TEST(Recess, NoOilIsMissingWhereGroovesSupplyAndTakeIt) {
-  Driven piston(busy());
+  Driven piston(busy_recess());
   piston.run(6.2e-3, 6.2e-3 + 0.031, 500, 5e-6);
   const OilBalance oil = *piston.element->oil_balance();
   std::printf("    oil [mm3]: first %.2f, into grooves %.2f, moved %.2f, missing %.1e of it\n",
@@ -204,7 +204,7 @@ TEST(Recess, NoOilIsMissingWhereGroovesSupplyAndTakeIt) {
   EXPECT_GT(std::abs(oil.grooves), 1e-2 * oil.first);
   EXPECT_EQ(oil.sides, 0.0);
   const std::vector<double> saved = piston.element->save();
-  Driven restored(busy());
+  Driven restored(busy_recess());
   restored.element->restore(saved);
   EXPECT_EQ(restored.element->save(), saved);
   EXPECT_EQ(restored.element->oil_balance()->missing(), oil.missing());
@@ -212,7 +212,7 @@ TEST(Recess, NoOilIsMissingWhereGroovesSupplyAndTakeIt) {
 
 TEST(Recess, MirroredRecessesMirrorTheResult) {
   const auto run = [](double sign) {
-    PistonLinerOptions options = busy();
+    PistonLinerOptions options = busy_recess();
     if (sign < 0.0)  // y to -y: angle f to 180 deg - f
       for (Recess& one : options.recesses)
         one.angle_begin = std::numbers::pi - one.angle_begin - one.angle_span + 1e-9;
@@ -229,7 +229,7 @@ TEST(Recess, MirroredRecessesMirrorTheResult) {
 TEST(Recess, PowerBalancesWhileAGrooveOfTheLinerPassesAContact) {
   PistonLinerOptions options = scene();
   options.clearance = 4e-6;
-  options.recesses = busy().recesses;
+  options.recesses = busy_recess().recesses;
   options.recesses.back().bottom = 0.243;  // the skirt is from 0.223 to 0.293 m
   options.recesses.back().top = 0.2571;
   const auto element = make_element(options, false);
@@ -285,7 +285,7 @@ TEST(Recess, WhatMakesNoSenseIsRefused) {
 }
 
 TEST(Recess, NoneAllocatesNothing) {
-  PistonLinerOptions options = busy();
+  PistonLinerOptions options = busy_recess();
   const size_t with = make_element(options, false)->save().size();
   options.recesses.clear();
   EXPECT_LT(make_element(options, false)->save().size(), with);

@@ -24,8 +24,6 @@ using testing::ShaftModelOf;
 using testing::started;
 using testing::steel_shaft;
 
-constexpr double kPi = std::numbers::pi;
-
 /// A short shaft in one bearing of 24 x 16 mm in its middle, with a large flywheel.
 std::string journal(const char* model, double rpm) {
   return fmt::format(R"(
@@ -71,7 +69,7 @@ Settled settled(const char* model, double rpm, double load) {
   const auto run = started(system, options);
   while (run->state().time < 0.5) run->step(0.5);
   const Eigen::Vector2d at(run->state().y(x), run->state().y(y));
-  const double turned = std::atan2(at.y(), at.x()) + 0.5 * kPi;
+  const double turned = std::atan2(at.y(), at.x()) + 0.5 * std::numbers::pi;
   return {at.norm() / 24e-6, rpm > 0.0 ? turned : -turned};
 }
 
@@ -80,7 +78,7 @@ TEST(ShaftMotion, OracleOfALoadedJournalAt1700Rpm) {
   for (const auto& [load, e] : {std::pair{100.0, 0.551326}, std::pair{1000.0, 0.890935}}) {
     const Settled found = settled("butenschoen", 1700.0, load);
     std::printf("%.0f N: e %.6f, reference %.6f, attitude %.3f deg\n", load, found.e, e,
-                found.angle * 180.0 / kPi);
+                found.angle * 180.0 / std::numbers::pi);
     EXPECT_NEAR(found.e, e, 2e-6);                       // the reference's digits
     EXPECT_NEAR(found.angle, map.angle(found.e), 1e-5);  // the smoothing over 0.1 rad/s
     const Settled back = settled("butenschoen", -1700.0, load);
@@ -272,7 +270,8 @@ TEST(ShaftMotion, APhaserRattlesBetweenItsStops) {
     v(system.mode_offset(shaft.builder.body("cam.wheel"))) = speed * std::sqrt(I1);
     // Free over 2 deg, then half a period against the stop, and back.
     const double w = std::sqrt(2e4 * (1.0 / I1 + 1.0 / I2));
-    const double gap = 2.0 * kPi / 180.0, period = 2.0 * (gap / speed + kPi / w);
+    const double gap = 2.0 * std::numbers::pi / 180.0,
+                 period = 2.0 * (gap / speed + std::numbers::pi / w);
     StepOptions options;
     options.largest = 1e-4;
     options.accuracy = {1e-5, 1e-6, 0.1, 0.05};
