@@ -5,6 +5,7 @@
 
 #include <array>
 #include <span>
+#include <type_traits>
 
 #include "core/base/xml.hpp"
 
@@ -23,8 +24,8 @@ class RawArrays {
     return fmt::format(
         "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" NumberOfTuples=\"{}\" "
         "format=\"appended\" offset=\"{}\"/>\n",
-        kName<T>, escape_xml(name), components, values.size() / static_cast<size_t>(components),
-        offset);
+        type_name<T>(), escape_xml(name), components,
+        values.size() / static_cast<size_t>(components), offset);
   }
   template <class T>
   std::string add(std::string_view name, const std::vector<T>& values) {
@@ -40,20 +41,16 @@ class RawArrays {
 
  private:
   template <class T>
-  static constexpr const char* kName = "";
+  static constexpr const char* type_name() {
+    if (std::is_same_v<T, double>) return "Float64";
+    if (std::is_same_v<T, int32_t>) return "Int32";
+    return std::is_same_v<T, int64_t> ? "Int64" : "UInt8";
+  }
   void append(const void* data, uint64_t length) {
     bytes_.append(static_cast<const char*>(data), length);
   }
   std::string bytes_;
 };
-template <>
-constexpr const char* RawArrays::kName<double> = "Float64";
-template <>
-constexpr const char* RawArrays::kName<int32_t> = "Int32";
-template <>
-constexpr const char* RawArrays::kName<int64_t> = "Int64";
-template <>
-constexpr const char* RawArrays::kName<uint8_t> = "UInt8";
 
 // VTK's triangle, quadratic triangle, quadrilateral, quadratic quadrilateral.
 uint8_t vtk_type(FaceType type) {

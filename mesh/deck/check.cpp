@@ -84,9 +84,10 @@ std::string summary_of(const Deck& deck) {
 // What the reader says of a deck that it reads.
 void add_remarks(const Deck& deck, std::vector<CheckedRow>& rows) {
   for (const auto& [name, count] : deck.ignored) {
-    const bool listed = std::any_of(rows.begin(), rows.end(), [&](const CheckedRow& row) {
-      return row.name == name && row.fate == "ignored";
-    });
+    const bool listed =
+        std::any_of(rows.begin(), rows.end(), [&, &name = name](const CheckedRow& row) {
+          return row.name == name && row.fate == "ignored";
+        });
     if (!listed) rows.push_back({count, "", name, "left out", "", ""});
   }
   for (const Repair& done : deck.renumbered)

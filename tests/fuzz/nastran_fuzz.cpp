@@ -8,8 +8,10 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
+#include "mesh/deck/contents.hpp"
 #include "mesh/deck/nastran/reader.hpp"
 #include "mesh/deck/nastran/writer.hpp"
+#include "tests/fuzz/whole_deck.hpp"
 
 namespace {
 
@@ -30,9 +32,11 @@ bool same(const Mesh& a, const Mesh& b) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
+  clatter::mesh::deck::Contents contents;
   try {
-    const Mesh mesh =
-        clatter::mesh::deck::read_nastran_text("fuzz.bdf", text, {{"CQUAD4", "BCSET"}}).mesh;
+    auto deck = clatter::mesh::deck::read_nastran_text(
+        "fuzz.bdf", text, {{"CQUAD4", "BCSET"}, std::nullopt, &contents});
+    const Mesh mesh = deck.mesh;
     std::ostringstream written;
     clatter::mesh::deck::write_nastran(mesh, written);
     try {
@@ -42,7 +46,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     } catch (const clatter::InputError&) {
       std::abort();
     }
+    clatter::test::finish(std::move(deck));
   } catch (const clatter::InputError&) {
   }
+  contents.passed_line();
   return 0;
 }

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Frequencies of C3D20R with the mass as in CalculiX: the eight points of the stiffness, where clatter is exact."""
+"""Frequencies with the mass as in CalculiX: by the points of the stiffness of C3D20R (8), C3D10 (4), C3D4 (1), where
+clatter is exact."""
 import h5py
 import numpy as np
 import scipy.linalg
@@ -18,9 +19,28 @@ def shape(xi):
     return np.array(values)
 
 
-def slope(xi, step=1e-5):
-    """Their gradients, (3, 20): central differences are exact for the quadratic part along each axis."""
-    return np.array([(shape(xi + d) - shape(xi - d)) / (2 * step) for d in step * np.eye(3)])
+def slope(xi, of=shape, step=1e-5):
+    """Gradients of shape functions, (3, n): central differences are exact for the quadratic part along each axis."""
+    return np.array([(of(xi + d) - of(xi - d)) / (2 * step) for d in step * np.eye(3)])
+
+
+HEX_POINTS = [np.array((a, b, c)) / np.sqrt(3) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]
+TET_EDGES = [(0, 1), (1, 2), (0, 2), (0, 3), (2, 3), (1, 3)]  # Gmsh's order
+TET_POINTS = (5 - np.sqrt(5)) / 20 + np.eye(4)[:, 1:] / np.sqrt(5)
+
+
+def tet_shape(xi):
+    """The 10 quadratic functions at a point."""
+    l = np.array([1 - xi.sum(), *xi])
+    return np.array([*(l * (2 * l - 1)), *(4 * l[a] * l[b] for a, b in TET_EDGES)])
+
+
+def linear_shape(xi):
+    return np.array([1 - xi.sum(), *xi])
+
+
+# Shape functions, points and the weight of each, by the number of nodes.
+RULES = {20: (shape, HEX_POINTS, 1.0), 10: (tet_shape, TET_POINTS, 1 / 24), 4: (linear_shape, [np.full(3, 0.25)], 1 / 6)}
 
 
 def sparse(group):
@@ -29,15 +49,15 @@ def sparse(group):
 
 
 def frequencies(mesh_file, model_file, density, count):
-    """The lowest frequencies [Hz] of a small model of hex20 cells, K from clatter, M with eight points per cell."""
+    """The lowest frequencies [Hz] of a small model of cells of one type, K from clatter, M by the points of CalculiX."""
     with h5py.File(mesh_file) as file:
         nodes, cells = file["nodes"][()], file["cells/0/nodes"][()]
-    points = [np.array((a, b, c)) / np.sqrt(3) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]
+    of, points, weight = RULES[cells.shape[1]]
     mass = np.zeros((len(nodes), len(nodes)))
-    for cell in cells:
-        for point in points:
-            value = shape(point)
-            mass[np.ix_(cell, cell)] += density * np.linalg.det(slope(point) @ nodes[cell]) * np.outer(value, value)
+    for point in points:
+        value, gradient = of(point), slope(point, of)
+        for cell in cells:
+            mass[np.ix_(cell, cell)] += weight * density * np.linalg.det(gradient @ nodes[cell]) * np.outer(value, value)
     with h5py.File(model_file) as file:
         K, T = sparse(file["K"]), sparse(file["T"]).toarray()
     K = (K + scipy.sparse.tril(K, -1).T).toarray()
@@ -51,10 +71,9 @@ def rotate_about_x(mesh_file, model_file, density):
     points per cell; omega^2 remains the factor of the case."""
     with h5py.File(mesh_file) as file:
         nodes, cells = file["nodes"][()], file["cells/0/nodes"][()]
-    points = [np.array((a, b, c)) / np.sqrt(3) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]
     force = np.zeros_like(nodes)
     for cell in cells:
-        for point in points:
+        for point in HEX_POINTS:
             value = shape(point)
             arm = value @ nodes[cell] * (0, 1, 1)
             force[cell] += density * np.linalg.det(slope(point) @ nodes[cell]) * np.outer(value, arm)

@@ -133,6 +133,23 @@ void add_straight(Model& model, size_t use, const MpcLines& lines,
   }
 }
 
+// LINEAR: p follows the line from a to b. With s its share of the way, u_p = (1 - s) u_a + s u_b.
+void add_linear(Model& model, size_t use, const MpcLines& lines,
+                std::vector<RawEquation>& equations) {
+  const Fields& fields = lines.front();
+  const std::vector<int32_t> rows = mpc_rows(model, use, lines);
+  if (rows.size() != 3) {
+    fields.fail(fmt::format("*MPC LINEAR: found {} nodes, expected 3", rows.size()));
+  }
+  const auto at = [&](size_t i) { return model.numbering.at(rows[i]); };
+  const Eigen::Vector3d e = at(2) - at(1);
+  if (!(e.norm() > 0.0)) fields.fail("*MPC LINEAR: its second and third node coincide");
+  const double s = (at(0) - at(1)).dot(e) / e.squaredNorm();
+  for (int k = 0; k < 3; ++k)
+    equations.push_back(follow(fields.origin(), rows[0], Eigen::Vector3d::Unit(k),
+                               {{rows[1], 1.0 - s}, {rows[2], s}}));
+}
+
 // MEANROT: the mean rotation of nodes about an axis is DoF 1 of the last node, whose coordinates
 // are the direction of the axis (Dhondt, CalculiX manual, "Mean rotation MPC"). To first order,
 // with the arms p_i from the nodes' centre, normal to the axis a, and m nodes,
@@ -222,13 +239,14 @@ void add_pair(Model& model, const std::string& type, const Fields& fields, int32
 void add_mpc(Model& model, size_t use, const MpcLines& lines, std::vector<RawEquation>& equations) {
   const Fields& fields = lines.front();
   const std::string type = folded(fields.text(0));
+  if (type == "LINEAR") return add_linear(model, use, lines, equations);
   if (type == "PLANE") return add_plane(model, use, lines, equations);
   if (type == "STRAIGHT") return add_straight(model, use, lines, equations);
   if (type == "MEANROT") return add_mean_rotation(model, use, lines, equations);
   if (type != "PIN" && type != "TIE" && type != "BEAM") {
     fields.fail(
-        fmt::format("*MPC of type {} is not supported, expected PIN, TIE, BEAM, PLANE, "
-                    "STRAIGHT or MEANROT; [[equation]] of the recipe replaces others",
+        fmt::format("*MPC of type {} is not supported, expected PIN, TIE, BEAM, LINEAR, "
+                    "PLANE, STRAIGHT or MEANROT; [[equation]] of the recipe replaces others",
                     type));
   }
   fields.at_most(3, "type and two nodes or node sets");

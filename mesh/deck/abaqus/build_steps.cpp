@@ -114,8 +114,17 @@ class Steps {
                             "ALLSDTOL", "CONTINUE", "FACTOR"},
                            model_.source, model_.ignore);
       step_.kind = Step::Kind::kStatic;
+      if (!perturbation_) set_times(card);
     }
     if (key == "FREQUENCY") read_frequency(card);
+  }
+
+  // Its increment, its period (1).
+  void set_times(const Card& card) {
+    const Fields fields =
+        card.size() > 0 ? card.line(0, model_.source) : Fields("", model_.source, card.origin());
+    model_.step_time = fields.number_or(1, "period of the step", 1.0);
+    model_.total_time = time_before_ + *model_.step_time;
   }
 
   void read_frequency(const Card& card) {
@@ -170,6 +179,8 @@ class Steps {
     const bool general = step_.kind == Step::Kind::kStatic && !perturbation_;
     loaded_ = loaded_ || (general && (moved || !loads_.empty()));
     if (perturbation_) loads_ = *base_loads_;
+    time_before_ = model_.total_time.value_or(time_before_);
+    model_.step_time = model_.total_time = std::nullopt;
     open_ = false;
     check_memory();
     model_.deck.steps.push_back(std::move(step_));
@@ -198,6 +209,7 @@ class Steps {
   std::unique_ptr<Loads> base_loads_;
   Step step_;
   StepNumber number_ = 0;
+  double time_before_ = 0.0;
   bool open_ = false, perturbation_ = false, loaded_ = false, left_out_ = false;
 };
 

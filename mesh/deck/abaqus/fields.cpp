@@ -7,8 +7,10 @@ namespace clatter::mesh::deck::abaqus {
 bool FieldWalk::next(std::string_view* field) {
   rest_ = trimmed(rest_);
   if (rest_.empty()) return false;
-  const size_t comma = rest_.find(',');
-  *field = trimmed(rest_.substr(0, comma));
+  const size_t quote = rest_.front() == '"' ? rest_.find('"', 1) : std::string_view::npos;
+  const bool quoted = quote != std::string_view::npos;
+  const size_t comma = rest_.find(',', quoted ? quote : 0);
+  *field = quoted ? rest_.substr(1, quote - 1) : trimmed(rest_.substr(0, comma));
   rest_.remove_prefix(comma == std::string_view::npos ? rest_.size() : comma + 1);
   return true;
 }

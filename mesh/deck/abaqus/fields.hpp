@@ -15,7 +15,8 @@ namespace clatter::mesh::deck::abaqus {
 class FieldWalk {
  public:
   explicit FieldWalk(std::string_view line) : rest_(line) {}
-  /// The next field, trimmed; false after the last one. A trailing comma opens no new field.
+  /// The next field, trimmed, without its quotes; false after the last one. A trailing comma opens
+  /// no new field.
   bool next(std::string_view* field);
 
  private:

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "mesh/deck/abaqus/cells.hpp"
 
@@ -78,10 +79,15 @@ void Loads::read_element_load(size_t use, const Fields& fields, double factor, S
   const std::string label = folded(fields.text(1));
   if (label == "GRAV") return add_gravity(use, fields, factor, step);
   if (label == "CENTRIF") return add_rotation(use, fields, factor, step);
+  for (const auto& [name, direction] : {std::pair("BX", 0), {"BY", 1}, {"BZ", 2}})
+    if (label == name) return add_force_per_volume(use, fields, direction, factor, step);
   const auto number = label.starts_with('P') ? to_integer(label.substr(1)) : std::nullopt;
   if (!number || *number < 1 || *number > 6) {
-    fields.fail(fmt::format("load {} is not supported, expected P1 to P6, GRAV or CENTRIF",
-                            fields.text(1)));
+    fields.fail(
+        fmt::format("load {} is not supported, expected P1 to P6, GRAV, CENTRIF, BX, BY or "
+                    "BZ; ignore = [\"*DLOAD\"] leaves out all loads of elements: [[load]] "
+                    "of the recipe replaces them",
+                    fields.text(1)));
   }
   fields.at_most(3, "elements, face, pressure");
   const double value = factor * fields.number(2, "pressure");
@@ -137,7 +143,34 @@ void Loads::add_gravity(size_t use, const Fields& fields, double factor, StepNum
     direction[static_cast<int>(k)] = fields.number_or(3 + k, "direction of gravity", 0.0);
   }
   if (!(direction.norm() > 0.0)) fields.fail("expected a direction of gravity");
-  const Eigen::Vector3d a = factor * fields.number(2, "acceleration") * direction.normalized();
+  add_acceleration(use, fields, factor * fields.number(2, "acceleration") * direction.normalized(),
+                   step);
+}
+
+// Elements, BX, BY or BZ, force per volume: an acceleration where all have the same density.
+void Loads::add_force_per_volume(size_t use, const Fields& fields, int direction, double factor,
+                                 StepNumber step) {
+  fields.at_most(3, "elements, direction, force per volume");
+  std::set<double> densities;
+  for (const Region& region : model_->deck.regions) {
+    const auto material = model_->deck.materials.find(region.material);
+    densities.insert(material == model_->deck.materials.end() ? 0.0 : material->second.density);
+  }
+  if (densities.size() != 1 || !(*densities.begin() > 0.0)) {
+    fields.fail(fmt::format(
+        "{} acts on {}, expected one density, by which a force per volume is an "
+        "acceleration; ignore = [\"*DLOAD\"] leaves out all loads of elements: "
+        "[[load]] of the recipe replaces them",
+        folded(fields.text(1)),
+        densities.size() > 1 ? "materials of several densities" : "a material without density"));
+  }
+  const double force = factor * fields.number(2, "force per volume");
+  add_acceleration(use, fields, force / *densities.begin() * Eigen::Vector3d::Unit(direction),
+                   step);
+}
+
+void Loads::add_acceleration(size_t use, const Fields& fields, const Eigen::Vector3d& a,
+                             StepNumber step) {
   Gravity& gravity = gravity_[{a[0], a[1], a[2]}];
   if (gravity.step != step) gravity = Gravity();
   gravity.covered.resize(static_cast<size_t>(model_->numbering.cells()), false);
@@ -223,8 +256,8 @@ void Loads::list_gravity(Step& out) const {
     const auto missing = std::find(gravity.covered.begin(), gravity.covered.end(), false);
     if (missing != gravity.covered.end()) {
       model_->source.fail(gravity.origin,
-                          "GRAV acts on some elements only, which is not supported, "
-                          "expected all");
+                          "GRAV, BX, BY or BZ acts on some elements only, which is not "
+                          "supported, expected all");
     }
     out.acceleration += Eigen::Vector3d(vector.data());
   }

@@ -25,7 +25,7 @@ class Loads {
 
   bool empty() const;
   /// Writes all active loads into `out`, with the surfaces and fields of the mesh that they need.
-  /// InputError where gravity acts on some elements only, or CENTRIF on a part of a region.
+  /// InputError where gravity or a force per volume acts on some elements only.
   void list(Step& out, StepNumber step);
 
  private:
@@ -50,6 +50,10 @@ class Loads {
 
   double begin(const Card& card);
   void add_gravity(size_t use, const Fields& fields, double factor, StepNumber step);
+  void add_force_per_volume(size_t use, const Fields& fields, int direction, double factor,
+                            StepNumber step);
+  void add_acceleration(size_t use, const Fields& fields, const Eigen::Vector3d& a,
+                        StepNumber step);
   void read_element_load(size_t use, const Fields& fields, double factor, StepNumber step);
   void add_rotation(size_t use, const Fields& fields, double factor, StepNumber step);
   void list_pressures(Step& out);

@@ -3,6 +3,7 @@
 // Builds the Deck from the cards: shared state, and the functions in call order.
 #include <initializer_list>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,9 +38,10 @@ struct Model {
   std::vector<std::pair<size_t, std::vector<int32_t>>> dependents;  // of Deck::rigid, as rows
   std::map<std::string, std::string> material_names, system_names;  // folded -> name in the deck
   std::map<std::string, const Card*> amplitudes;                    // by folded name
-  std::vector<int32_t> region_of_cell;                              // index into Mesh::regions
-  int64_t faces = 0;                                                // of all surfaces
-  std::vector<BoltCut> cuts;                                        // of *PRE-TENSION SECTION
+  std::optional<double> step_time, total_time;  // at the end of an open general static step
+  std::vector<int32_t> region_of_cell;          // index into Mesh::regions
+  int64_t faces = 0;                            // of all surfaces
+  std::vector<BoltCut> cuts;                    // of *PRE-TENSION SECTION
 };
 
 /// Calls body(use, card) for each card with one of those keys, use by use, in the order of the

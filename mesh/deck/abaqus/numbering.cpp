@@ -138,6 +138,16 @@ int32_t Numbering::row_of(const Use& use, int32_t id, Origin origin) const {
   return use.first_node + local;
 }
 
+// The use that a node's instance names: a number from 1 of Scope::other_instances, 0 for its own.
+const Use& Numbering::use_of(const Scope& scope, const Use& own, int32_t instance,
+                             Origin origin) const {
+  if (instance == 0) return own;
+  const std::string& name = scope.other_instances[static_cast<size_t>(instance - 1)];
+  const int use = find_use(name);
+  if (use < 0) source_.fail(origin, fmt::format("found no instance {}", shown(name)));
+  return uses_[static_cast<size_t>(use)];
+}
+
 void Numbering::add_cells(Scope& scope, Use& use) {
   use.first_table = static_cast<int32_t>(tables_.size());
   use.first_cell = cells_;
@@ -174,8 +184,11 @@ void Numbering::add_cells(Scope& scope, Use& use) {
     tables_.push_back(std::move(table));
   }
   for (PointElement point : scope.points) {
-    point.node = row_of(use, point.node, point.origin);
-    point.second = point.second == 0 ? -1 : row_of(use, point.second, point.origin);
+    const auto row = [&](size_t end, int32_t id) {
+      return row_of(use_of(scope, use, point.instance[end], point.origin), id, point.origin);
+    };
+    point.node = row(0, point.node);
+    point.second = point.second == 0 ? -1 : row(1, point.second);
     points_.push_back(point);
   }
   for (ThinElement thin : scope.thin) {

@@ -97,6 +97,7 @@ class Numbering {
   void add_nodes(Scope& scope, Use& use);
   void add_cells(Scope& scope, Use& use);
   void index_scope(const Scope& scope);
+  const Use& use_of(const Scope& scope, const Use& own, int32_t instance, Origin origin) const;
   int32_t row_of(const Use& use, int32_t id, Origin origin) const;
   int32_t element_at(const Use& use, int32_t local) const;
 

@@ -41,6 +41,8 @@ struct PointElement {
   int32_t node = 0;    // number in the deck
   int32_t second = 0;  // the same; 0: none
   Origin origin = 0;
+  // Of the node and of `second`: 0, the scope's own, or a number from 1 of Scope::other_instances.
+  std::array<int32_t, 2> instance{};
 };
 
 /// An element of two dimensions (CPS6, S3) or one (T3D2, B31) beside the solids.
@@ -82,7 +84,8 @@ struct Scope {
   std::vector<CellTable> cells;
   std::vector<PointElement> points;
   std::vector<ThinElement> thin;
-  std::vector<int32_t> ignored_elements;  // numbers of elements that the user ignores
+  std::vector<int32_t> ignored_elements;     // numbers of elements that the user ignores
+  std::vector<std::string> other_instances;  // names before nodes of `points`: "Bar-1.73"
   IdSets node_sets, element_sets;
   std::vector<Card> cards;
 };

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -37,6 +38,23 @@ int32_t id_of(std::string_view field, const Lines& lines, std::string_view what)
                         fmt::format("found {}, expected {} (1 to 2147483647)", shown(field), what));
   }
   return *id;
+}
+
+int32_t node_of(std::string_view field, const Lines& lines) {
+  return id_of(field, lines, "the number of a node");
+}
+
+// Takes "Bar-1." from "Bar-1.73", as Abaqus/CAE writes elements of the assembly; the number of the
+// instance, 0 if there is none.
+int32_t split_instance(std::string_view& node, Scope& scope) {
+  const size_t dot = node.rfind('.');
+  if (dot == std::string_view::npos) return 0;
+  const std::string_view name = node.substr(0, dot);
+  node.remove_prefix(dot + 1);
+  std::vector<std::string>& names = scope.other_instances;
+  const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+  if (at == std::ssize(names)) names.emplace_back(name);
+  return static_cast<int32_t>(at + 1);
 }
 
 void read_node(const Lines& lines, const LocalSystem& system, char kind, NodeTable& nodes) {
@@ -81,7 +99,7 @@ class ElementWalk {
   ElementWalk(Lines& lines, std::string_view type, int n_nodes, Ignore& ignore)
       : lines_(lines), type_(type), n_nodes_(n_nodes), ignore_(ignore) {}
 
-  // Calls begin(id, origin) and node(id) for each element of the table.
+  // Calls begin(id, origin) and node(field) for each element of the table.
   template <class Begin, class Node>
   Lines::Kind run(const Begin& begin, const Node& node) {
     int missing = 0;
@@ -100,7 +118,7 @@ class ElementWalk {
           begin(id_of(field, lines_, "the number of an element"), origin);
           missing = n_nodes_;
         } else {
-          node(id_of(field, lines_, "the number of a node"));
+          node(field);
           if (--missing == 0) origin = lines_.origin();
         }
       }
@@ -131,13 +149,14 @@ Lines::Kind read_solids(Lines& lines, const SolidType& solid, Scope& scope, SetC
                         Ignore& ignore) {
   CellTable& table = table_of(scope, solid);
   const auto first = table.ids.size();
-  const Lines::Kind kind = ElementWalk(lines, solid.name, traits(solid.type).nodes, ignore)
-                               .run(
-                                   [&](int32_t id, Origin origin) {
-                                     table.ids.push_back(id);
-                                     table.origins.push_back(origin);
-                                   },
-                                   [&](int32_t node) { table.nodes.push_back(node); });
+  const Lines::Kind kind =
+      ElementWalk(lines, solid.name, traits(solid.type).nodes, ignore)
+          .run(
+              [&](int32_t id, Origin origin) {
+                table.ids.push_back(id);
+                table.origins.push_back(origin);
+              },
+              [&](std::string_view node) { table.nodes.push_back(node_of(node, lines)); });
   if (chunk != nullptr) {
     chunk->table = static_cast<int32_t>(&table - scope.cells.data());
     chunk->row_begin = static_cast<int32_t>(first);
@@ -156,9 +175,11 @@ Lines::Kind read_points(Lines& lines, const std::string& type, Scope& scope, Set
             chunk->id_lines.emplace_back(chunk->ids.size(), origin);
             chunk->ids.push_back(id);
           },
-          [&](int32_t node) {
+          [&](std::string_view node) {
             PointElement& point = scope.points.back();
-            (point.node == 0 ? point.node : point.second) = node;
+            const bool first = point.node == 0;
+            point.instance[first ? 0 : 1] = split_instance(node, scope);
+            (first ? point.node : point.second) = node_of(node, lines);
           });
 }
 
@@ -174,9 +195,9 @@ Lines::Kind read_thin(Lines& lines, const std::string& type, Scope& scope, SetCh
             chunk->id_lines.emplace_back(chunk->ids.size(), origin);
             chunk->ids.push_back(id);
           },
-          [&](int32_t node) {
+          [&](std::string_view node) {
             ThinElement& thin = scope.thin.back();
-            thin.nodes[static_cast<size_t>(thin.count++)] = node;
+            thin.nodes[static_cast<size_t>(thin.count++)] = node_of(node, lines);
           });
 }
 

@@ -14,9 +14,8 @@ namespace clatter::mesh::deck {
 ///   mesh        *NODE, *ELEMENT of C3D4 C3D5 C3D6 C3D8 C3D8I C3D8R C3D10 C3D15 C3D20 C3D20R,
 ///               *NSET, *ELSET, *SURFACE, *PART, *INSTANCE, *INCLUDE
 ///   material    *ELASTIC, *DENSITY, *EXPANSION, *SOLID SECTION, *ORIENTATION
-///   constraints *TIE, *COUPLING, *DISTRIBUTING COUPLING, *RIGID BODY, *EQUATION, *MPC of PIN, TIE
-///   and
-///               BEAM, *MASS, *ROTARY INERTIA
+///   constraints *TIE, *COUPLING, *DISTRIBUTING COUPLING, *RIGID BODY, *EQUATION, *MPC of PIN, TIE,
+///               BEAM and LINEAR, *MASS, *ROTARY INERTIA
 ///   steps       *STATIC, *FREQUENCY with *BOUNDARY, *TRANSFORM, *CLOAD, *DLOAD, *DSLOAD,
 ///   *TEMPERATURE
 ///
@@ -53,6 +52,9 @@ namespace clatter::mesh::deck {
 /// - <name> of *PARAMETER is replaced in all later lines.
 /// - An element line with too many nodes is refused; ignore = ["EXTRA NODES"] takes the first ones,
 ///   as CalculiX does.
+/// - Elements of the assembly name nodes of instances as "instance.number".
+/// - An amplitude is a factor at the end of a general static step; elsewhere it must be constant.
+/// - A force per volume (BX, BY, BZ) is an acceleration of the model, which has one density.
 /// - A *TIE or *COUPLING surface of TYPE=NODE means the outer faces whose nodes are all in it.
 /// - Equations between nodes with *TRANSFORM are transformed to the basic axes.
 /// - *STEP, PERTURBATION after a loaded *STATIC step is skipped with all that follow and a note

@@ -94,7 +94,8 @@ void Sets::add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<i
     compact(out);
   }
   for (const auto& [name, origin] : chunk.names) {
-    const auto other = at(kind, Fields(name, numbering_.source(), origin), 0, use);
+    const std::string quoted = '"' + name + '"';
+    const auto other = at(kind, Fields(quoted, numbering_.source(), origin), 0, use);
     out.insert(out.end(), other.begin(), other.end());
     compact(out);
   }
@@ -205,7 +206,8 @@ int32_t Sets::node_at(const Fields& fields, size_t i, size_t use) {
 }
 
 int32_t Sets::node_named(const std::string& text, size_t use, Origin origin) {
-  return node_at(Fields(text, numbering_.source(), origin), 0, use);
+  const std::string quoted = '"' + text + '"';
+  return node_at(Fields(quoted, numbering_.source(), origin), 0, use);
 }
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <tuple>
 
@@ -21,6 +22,41 @@ constexpr std::array<std::pair<std::string_view, DofMask>, 8> kNamed = {{
     {"ENCASTRE", 0b111111},
 }};
 
+struct TimeValue {
+  double time = 0.0, value = 0.0;
+};
+
+// Pairs of time and value, times ascending.
+std::vector<TimeValue> table_of(const Card& amplitude, const Source& source) {
+  const Keyword& keyword = amplitude.keyword();
+  if (keyword.choice("VALUE", "RELATIVE") != "RELATIVE") {
+    source.fail(keyword.origin, "*AMPLITUDE: expected VALUE=RELATIVE, a factor of the loads");
+  }
+  std::vector<TimeValue> table;
+  for (size_t i = 0; i < amplitude.size(); ++i) {
+    const Fields fields = amplitude.line(i, source);
+    for (size_t k = 0; k + 1 < fields.size(); k += 2) {
+      table.push_back({fields.number(k, "time"), fields.number(k + 1, "amplitude")});
+      if (table.size() > 1 && !(table.back().time >= table[table.size() - 2].time))
+        fields.fail(fmt::format("*AMPLITUDE: found time {} after {}, expected ascending times",
+                                table.back().time, table[table.size() - 2].time));
+    }
+  }
+  return table;
+}
+
+// Straight or smooth between the times of the table, constant outside.
+double value_at(const std::vector<TimeValue>& table, double time, bool smooth) {
+  const auto after = std::upper_bound(table.begin(), table.end(), time,
+                                      [](double t, const TimeValue& one) { return t < one.time; });
+  if (after == table.end()) return table.back().value;
+  if (after == table.begin()) return table.front().value;
+  const TimeValue& a = *(after - 1);
+  double s = (time - a.time) / (after->time - a.time);
+  if (smooth) s = s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
+  return a.value + s * (after->value - a.value);
+}
+
 }  // namespace
 
 double amplitude_factor(const Model& model, const Card& card) {
@@ -30,24 +66,26 @@ double amplitude_factor(const Model& model, const Card& card) {
   if (known == model.amplitudes.end()) {
     model.source.fail(card.origin(), fmt::format("found no amplitude {}", shown(*name)));
   }
-  const Card* amplitude = known->second;
-  std::vector<double> values;
-  const bool table = amplitude->keyword().choice("DEFINITION", "TABULAR") == "TABULAR";
-  for (size_t i = 0; table && i < amplitude->size(); ++i) {
-    const Fields fields = amplitude->line(i, model.source);
-    for (size_t k = 1; k < fields.size(); k += 2) values.push_back(fields.number(k, "amplitude"));
-  }
-  for (const double value : values) {
-    if (value != values.front()) values.clear();
-    if (values.empty()) break;
-  }
-  if (values.empty()) {
+  const Keyword& amplitude = known->second->keyword();
+  const std::string definition = amplitude.choice("DEFINITION", "TABULAR");
+  const bool smooth = definition == "SMOOTHSTEP";
+  const std::vector<TimeValue> table = smooth || definition == "TABULAR"
+                                           ? table_of(*known->second, model.source)
+                                           : std::vector<TimeValue>();
+  if (std::all_of(table.begin(), table.end(),
+                  [&](const TimeValue& one) { return one.value == table.front().value; }) &&
+      !table.empty())
+    return table.front().value;
+  const bool total = amplitude.choice("TIME", "STEPTIME") == "TOTALTIME";
+  const auto time = total ? model.total_time : model.step_time;
+  if (table.empty() || !time) {
     model.source.fail(card.origin(),
-                      fmt::format("amplitude {} changes with time, which is not supported; "
-                                  "ignore = [\"AMPLITUDE\"] uses the values without it",
+                      fmt::format("amplitude {} changes with time, expected a table that a general "
+                                  "*STATIC step takes at its end; ignore = [\"AMPLITUDE\"] uses "
+                                  "the values without it",
                                   *name));
   }
-  return values.front();
+  return value_at(table, *time, smooth);
 }
 
 std::pair<NodeIndex, DofMask> held_dofs(const Model& model, int32_t row, DofMask mask) {

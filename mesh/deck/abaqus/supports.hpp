@@ -13,7 +13,8 @@ namespace clatter::mesh::deck::abaqus {
 /// Number of a step; the model itself is step 0.
 using StepNumber = int32_t;
 
-/// Factor of a card's AMPLITUDE; 1 without one. InputError for an amplitude that is not constant.
+/// Factor of a card's AMPLITUDE at the end of the step (Model::step_time); 1 without one.
+/// InputError for one that changes with time outside of general static steps.
 double amplitude_factor(const Model& model, const Card& card);
 
 /// The DoFs of a node in `mask` (1 to 6 of the deck): its node index, and the mask there. kNone for

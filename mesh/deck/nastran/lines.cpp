@@ -37,8 +37,7 @@ class CardReader {
     if (!current_.empty() && !orphan_ && !full && !orphans_.contains(current_.next())) {
       end_.missing_continuation = current_.next();
     }
-    go_on([&] { finish(); });
-    go_on([&] { join_waiting(); });
+    end_section();
     return end_;
   }
 
@@ -49,6 +48,13 @@ class CardReader {
     if (refusals_.attempt(body)) return;
     end_.complete = false;
     current_.clear();
+  }
+
+  void end_section() {
+    go_on([&] { finish(); });
+    go_on([&] { join_waiting(); });
+    waiting_.clear();
+    orphans_.clear();
   }
 
   // False after the last line.
@@ -64,10 +70,7 @@ class CardReader {
     text = without_comment(text);
     if (text.empty()) return true;
     if (starts_with_word(text, "BEGIN ")) {
-      finish();
-      join_waiting();
-      waiting_.clear();
-      orphans_.clear();
+      end_section();
       sink_.begin_section(trimmed(text), source_.origin());
       return true;
     }

@@ -22,12 +22,13 @@ constexpr size_t kMostPressures = 10'000;  // surfaces of one load set
 void Loads::build_surfaces() {
   for (const auto& [id, set] : raw_.loads) {
     std::map<double, SurfaceBuilder> surfaces;  // by pressure: compression is positive
-    const auto add = [&, this](const RawPressure& pressure, const LoadedFace& face, double value) {
+    const auto add = [&, this, of = id](const RawPressure& pressure, const LoadedFace& face,
+                                        double value) {
       surfaces[value].add(face.type, face.nodes);
       if (surfaces.size() > kMostPressures)
         model_.source.fail(pressure.origin, fmt::format("load set {}: found more than {} different "
                                                         "pressures",
-                                                        id, kMostPressures));
+                                                        of, kMostPressures));
     };
     const auto push = [&, this, of = id](const RawPressure& pressure, const LoadedFace& face,
                                          double sign) {

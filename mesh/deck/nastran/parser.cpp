@@ -80,7 +80,8 @@ class Parser : public CardSink {
     std::vector<std::pair<std::string, Refused>> all(refused_.begin(), refused_.end());
     std::sort(all.begin(), all.end(),
               [](const auto& a, const auto& b) { return a.second.origin < b.second.origin; });
-    for (const auto& [name, refused] : all) refusals_.attempt([&] { refuse(name, refused); });
+    for (const auto& [name, refused] : all)
+      refusals_.attempt([&, &name = name, &refused = refused] { refuse(name, refused); });
   }
 
   /// The section with solids; InputError when several have some.

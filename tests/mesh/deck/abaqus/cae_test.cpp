@@ -73,6 +73,43 @@ TEST(AbaqusCae, WhatChangesNeitherKNorMIsPassedOverAndListed) {
               HasSubstr("# [damping]\n# alpha = 1e-06\n# beta = 3\n"));  // alpha multiplies K here
 }
 
+TEST(AbaqusCae, DampingOfASubstructureIsPassedOver) {
+  const Deck deck = read(kInstances + kSteelCae + kFrequency +
+                         "*Step, name=Sub\n*Substructure Generate, type=Z1\n*Damping Controls, "
+                         "structural=NONE\n*Flexible Body, type=ADAMS\n*Retained Nodal Dofs\n"
+                         "Fixed, 1, 3\n*End Step\n");
+  EXPECT_EQ(deck.retained.at(0).node_indices.size(), 4u);
+  EXPECT_THAT(deck.passed, HasSubstr("*DAMPING CONTROLS"));
+}
+
+TEST(AbaqusCae, ElementsOfTheAssemblyNameNodesOfInstances) {
+  const std::string springs =
+      "*Element, type=SpringA, elset=S\n1, P-1.7, P-2.1\n*Spring, elset=S\n\n50.\n"
+      "*Element, type=Spring1, elset=T\n2, P-2.7\n*Spring, elset=T\n2\n9.\n";
+  const Deck deck = read(kInstances + springs + kSteelCae + kFrequency);
+  ASSERT_EQ(deck.springs.size(), 2u);
+  // From (1, 1, 1) to (0, 0, 1), nodes 7 and 101.
+  EXPECT_EQ(deck.springs[0].terms.size(), 4u);
+  EXPECT_EQ(deck.springs[0].terms[0].node_index, node(deck, 101));
+  EXPECT_EQ(deck.springs[0].terms[1].node_index, node(deck, 7));
+  EXPECT_EQ(deck.springs[1].terms.at(0).node_index, node(deck, 107));
+  EXPECT_THAT(refusal(kInstances + "*Element, type=Spring1, elset=S\n1, P-3.7\n" + kSteelCae),
+              HasSubstr("found no instance 'P-3'"));
+}
+
+TEST(AbaqusCae, QuotedNamesHaveBlanksAndCommas) {
+  const Deck deck =
+      read(kCubeNodes +
+           "*ELEMENT, TYPE=C3D8, ELSET=\"The cube, 1\"\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+           "*NSET, NSET=\"The foot, held\"\n1, 2, 3\n*NSET, NSET=All\n\"The foot, held\", 4\n"
+           "*MATERIAL, NAME=\"S355, plate\"\n*ELASTIC\n2.1E5, .3\n"
+           "*SOLID SECTION, ELSET=\"The cube, 1\", MATERIAL=\"S355, plate\"\n"
+           "*BOUNDARY\n\"The foot, held\", 1, 3\nall, 3\n");
+  EXPECT_EQ(deck.mesh.node_set("All").size(), 4u);
+  ASSERT_EQ(deck.supports.size(), 2u);
+  EXPECT_EQ(deck.supports[1].node_indices.size(), 3u);
+}
+
 TEST(AbaqusCae, GravityWithoutASetIsThatOfTheModel) {
   const Deck deck =
       read(kInstances + kSteelCae +
@@ -86,7 +123,9 @@ TEST(AbaqusCae, GravityWithoutASetIsThatOfTheModel) {
 
 TEST(AbaqusCae, KeywordsThatDoChangeThemAreRefusedWithWhatReplacesThem) {
   EXPECT_THAT(refusal(kModel + "*NONSTRUCTURAL MASS, ELSET=EALL, UNITS=TOTAL MASS\n1.\n"),
-              HasSubstr("and its mass: [[point_mass]] of the recipe replace it"));
+              HasSubstr("and its mass: [[point_mass]] or a larger rho of the recipe replace it"));
+  EXPECT_THAT(refusal(kModel + "*NMAP, NSET=TOP\n0, 0, 0, 1, 0, 0\n"),
+              HasSubstr("with its data lines: nodes then stay where they were before it"));
   EXPECT_THAT(refusal(kModel + "*ODD THING\n"),
               HasSubstr("and what it adds to stiffness, mass, supports or couplings: [[spring]]"));
 }

@@ -79,6 +79,22 @@ TEST(AbaqusMpc, PlaneKeepsRigidMotionsAndMotionsWithinThePlaneOnly) {
   EXPECT_THAT(refusal(kModel + "*MPC\nPLANE, 1, 2, 3\n"), HasSubstr("found 3 nodes, expected 4"));
 }
 
+TEST(AbaqusMpc, LinearFollowsTheLineBetweenTwoNodes) {
+  const Deck deck = read(kCube + "*MPC\nLINEAR, 6, 5, 7\nLINEAR, 2, 1, 3\n");
+  ASSERT_EQ(deck.equations.size(), 6u);
+  const Equation& y = deck.equations[1];
+  ASSERT_EQ(y.terms.size(), 3u);
+  EXPECT_EQ(y.terms[0].node_index, node(deck, 6));
+  EXPECT_EQ(y.terms[0].direction, 1);
+  EXPECT_EQ(y.terms[0].coefficient, 1.0);
+  // (1, 0) is half of the way from (0, 0) to (1, 1).
+  EXPECT_EQ(y.terms[1].coefficient, -0.5);
+  EXPECT_EQ(y.terms[2].coefficient, -0.5);
+  EXPECT_THAT(refusal(kCube + "*MPC\nLINEAR, 6, 5\n"), HasSubstr("found 2 nodes, expected 3"));
+  EXPECT_THAT(refusal(kCube + "*MPC\nLINEAR, 1, 9, 10\n"),
+              HasSubstr("its second and third node coincide"));
+}
+
 TEST(AbaqusMpc, StraightIsTwoEquationsPerNodeAndContinuesAfterAZero) {
   const std::string edge =
       kCubeNodes +

@@ -134,24 +134,79 @@ TEST(AbaqusSteps, GravityOnSomeElementsIsRefused) {
   EXPECT_NE(refusal("*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,1,1,1\n"
                     "*ELEMENT, TYPE=C3D4, ELSET=A\n1,1,2,3,4\n2,2,3,4,5\n"
                     "*STEP\n*STATIC\n*DLOAD\n1, GRAV, 1., 0,0,1\n*END STEP\n")
-                .find("GRAV acts on some elements only"),
+                .find("GRAV, BX, BY or BZ acts on some elements only"),
             std::string::npos);
 }
 
-TEST(AbaqusSteps, ConstantAmplitudesScaleOthersAreRefused) {
-  const std::string amplitudes =
-      "*AMPLITUDE, NAME=C\n0., 2., 1., 2.\n*AMPLITUDE, NAME=V\n0., 0., 1., 1.\n";
-  const Deck deck = read(kModel + amplitudes + step("*CLOAD, AMPLITUDE=c\n5, 1, 3.\n"));
-  EXPECT_EQ(force(deck.steps[0], 0), 6.0);
-  EXPECT_NE(refusal(kModel + amplitudes + step("*CLOAD, AMPLITUDE=V\n5, 1, 3.\n"))
-                .find("amplitude V changes with time"),
+// A force of 3 with an amplitude, in a static step whose line is `times`.
+double scaled(const std::string& amplitude, const std::string& times) {
+  const Deck deck = read(kModel + "*AMPLITUDE, NAME=A" + amplitude + "*STEP\n*STATIC\n" + times +
+                         "*CLOAD, AMPLITUDE=a\n5, 1, 3.\n*END STEP\n");
+  return force(deck.steps.at(0), 0);
+}
+
+TEST(AbaqusSteps, AmplitudesAreTakenAtTheEndOfAStaticStep) {
+  EXPECT_EQ(scaled("\n0., 2., 1., 2.\n", ""), 6.0);
+  EXPECT_EQ(scaled("\n0., 0., 1., 1.\n", ""), 3.0);
+  EXPECT_EQ(scaled("\n0., 0., 1., 1.\n", ".1, .5\n"), 1.5);
+  EXPECT_EQ(scaled("\n0., 0., 1., 1.\n2., .5\n", ".1, 1.5\n"), 2.25);
+  EXPECT_EQ(scaled("\n.7, .2, 1., 1.\n", ".1, .5\n"), 3.0 * 0.2);
+  EXPECT_EQ(scaled(", DEFINITION=SMOOTH STEP\n0., 0., 1., 1.\n", ".1, .5\n"), 1.5);
+  // (1/4)^3 (10 - 15/4 + 6/16)
+  EXPECT_DOUBLE_EQ(scaled(", DEFINITION=SMOOTH STEP\n0., 0., 1., 1.\n", ".1, .25\n"),
+                   3.0 * 0.103515625);
+}
+
+TEST(AbaqusSteps, AmplitudesOfTheTotalTimeGoOnOverSteps) {
+  const std::string load = "*AMPLITUDE, NAME=A, TIME=TOTAL TIME\n0., 0., 4., 1.\n";
+  const std::string one = "*STEP\n*STATIC\n.1, 1.\n*CLOAD, AMPLITUDE=A\n5, 1, 8.\n*END STEP\n";
+  const Deck deck = read(kModel + load + one + one + one);
+  EXPECT_EQ(force(deck.steps.at(0), 0), 2.0);
+  EXPECT_EQ(force(deck.steps.at(2), 0), 6.0);
+}
+
+TEST(AbaqusSteps, AmplitudesWithoutAnEndOfTheStepAreRefused) {
+  const std::string load = "*CLOAD, AMPLITUDE=A\n5, 1, 3.\n";
+  const std::string table = kModel + "*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n";
+  const std::string later = "*STEP, PERTURBATION\n*STATIC\n" + load + "*END STEP\n";
+  EXPECT_NE(refusal(table + later)
+                .find("amplitude A changes with time, expected a table that a general *STATIC"),
+            std::string::npos);
+  EXPECT_EQ(force(read(table + later, {"AMPLITUDE"}).steps[0], 0), 3.0);
+  EXPECT_NE(refusal(kModel + "*AMPLITUDE, NAME=A, DEFINITION=PERIODIC\n1, 50., 0., 0.\n1., 0.\n" +
+                    step(load))
+                .find("amplitude A changes with time"),
+            std::string::npos);
+  EXPECT_NE(refusal(kModel + "*AMPLITUDE, NAME=A, VALUE=ABSOLUTE\n0., 0., 1., 1.\n" + step(load))
+                .find("expected VALUE=RELATIVE"),
+            std::string::npos);
+  EXPECT_NE(refusal(kModel + "*AMPLITUDE, NAME=A\n1., 0., 0., 1.\n" + step(load))
+                .find("found time 0 after 1, expected ascending times"),
             std::string::npos);
   EXPECT_NE(refusal(kModel + step("*CLOAD, AMPLITUDE=X\n5, 1, 3.\n")).find("no amplitude 'X'"),
             std::string::npos);
-  EXPECT_EQ(force(read(kModel + amplitudes + step("*CLOAD, AMPLITUDE=V\n5, 1, 3.\n"), {"AMPLITUDE"})
-                      .steps[0],
-                  0),
-            3.0);
+}
+
+TEST(AbaqusSteps, ForcesPerVolumeAreAccelerationsWhereThereIsOneDensity) {
+  const std::string force = "*DLOAD\nEALL, BY, 1.56E-8\n";
+  EXPECT_EQ(read(kModel + step(force)).steps.at(0).acceleration, Eigen::Vector3d(0, 2, 0));
+  std::string light = kModel;
+  light.erase(light.find("*DENSITY"), std::string("*DENSITY\n7.8E-9\n").size());
+  EXPECT_NE(refusal(light + step(force)).find("BY acts on a material without density"),
+            std::string::npos);
+  const std::string second =
+      "*NODE\n11, 0, 0, 2\n12, 1, 0, 2\n13, 1, 1, 2\n14, 0, 1, 2\n*ELEMENT, TYPE=C3D8, ELSET=B\n"
+      "2, 5, 6, 7, 8, 11, 12, 13, 14\n";
+  EXPECT_NE(
+      refusal(kModel + second +
+              "*MATERIAL, NAME=M\n*ELASTIC\n7E4, .3\n*DENSITY\n1E-9\n*SOLID SECTION, ELSET=B, "
+              "MATERIAL=M\n" +
+              step("*DLOAD\n, BX, 1.\n"))
+          .find("BX acts on materials of several densities"),
+      std::string::npos);
+  EXPECT_NE(refusal(kModel + second + "*SOLID SECTION, ELSET=B, MATERIAL=STEEL\n" + step(force))
+                .find("acts on some elements only"),
+            std::string::npos);
 }
 
 TEST(AbaqusSteps, TemperaturesCountFromTheInitialOnes) {

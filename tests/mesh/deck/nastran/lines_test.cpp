@@ -188,5 +188,13 @@ TEST(NastranFormat, WrongFieldsAreNamedWithTheirLine) {
               StartsWith("t.bdf:2: CTETRA: G: found 'X'"));
 }
 
+// The section that follows is read, and what waited before it is forgotten.
+TEST(NastranContinuations, ThatBelongToNoCardEndWithTheirSection) {
+  for (const char* next : {"", "BEGIN SUPER=1\nGRID,10,,0.,0.,0.\n"})
+    EXPECT_THAT(
+        refusal(kTet + "GRID,9,,0.,0.,0.,,,,+A\n+B,1\n" + next),
+        HasSubstr("t.bdf:9: found continuation 'B', expected a card that ends in this name"));
+}
+
 }  // namespace
 }  // namespace clatter::test
