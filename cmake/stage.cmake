@@ -61,7 +61,7 @@ endif()
 # one file -DCLATTER_UNITY=OFF is faster; it also finds includes that are missing.
 option(CLATTER_UNITY "compile neighbouring sources as one file" ON)
 set(CMAKE_UNITY_BUILD ${CLATTER_UNITY})
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 24)
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 12)
 
 # clatter_library(<name> SOURCES a.cpp ... LINKS clatter::core ... PRIVATE_LINKS ...)
 # creates the static library clatter_<name>, or without SOURCES one of headers alone; its alias is clatter::<name>, in an
