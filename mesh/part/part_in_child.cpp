@@ -30,8 +30,8 @@ namespace clatter::mesh {
 
 template <class Archive, SelfOf<MadePart> Self>
 void wire(Archive& archive, Self& s) {
-  auto& [part, config, steps, cad] = s;
-  archive(part, config, steps, cad);
+  auto& [part, steps, cad] = s;
+  archive(part, steps, cad);
 }
 
 namespace {
@@ -60,22 +60,19 @@ class ScratchFolder {
 // In the child.
 MadePart make_part(const PartJob& job, const MeshSettings& settings,
                    const std::filesystem::path& scratch) {
-  const Config& config = *job.config;
-  const LengthUnit unit = read_length_unit(config);
+  const LengthUnit& unit = job.part->shape.unit;
   StepClock clock;
   MadePart made;
-  GmshSession session(job.name);
-  const PartGeometry part = build_part(session, config);
-  config.finish();
+  GmshSession session(job.part->name);
+  const PartGeometry part = build_part(session, job.part->shape);
   clock.lap("geometry");
   if (!job.cad_extension.empty()) {
     const std::filesystem::path file = scratch / ("part" + job.cad_extension);
     session.write_cad(file, unit.name);
     made.cad = read_whole_file(file);
   }
-  made.part = mesh_part(session, part, settings, unit.metres, job.name, job.where);
+  made.part = mesh_part(session, part, settings, unit.metres, job.part->name, job.where);
   clock.lap("mesh");
-  made.config = config.resolved();
   made.steps = clock.steps();
   return made;
 }
@@ -123,7 +120,7 @@ Attempt simpler_than(MeshSettings settings) {
 
 MadePart make_part_in_child(const PartJob& job, const ChildLimits& limits) {
   const Stopwatch clock;
-  MeshSettings requested = read_mesh_settings(*job.config);
+  MeshSettings requested = job.part->mesh;
   if (job.element_size > 0.0) requested.element_size = job.element_size;
   std::optional<ScratchFolder> scratch;
   ChildLimits mine = with_news(limits);
