@@ -37,7 +37,7 @@ def section(table, path=""):
     for key in table["keys"]:
         if "table" in key:
             inner = prefix + key["name"]
-            lines += [f"## `{words.heading_of(key, inner)}`", "", sentence(key["meaning"]), "", *section(key["table"], inner)]
+            lines += [f"## `{words.heading_of(key, inner)}`", "", sentence("; ".join([key["meaning"], *words.rules_of(key)])), "", *section(key["table"], inner)]
     return lines
 
 
