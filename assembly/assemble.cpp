@@ -37,14 +37,16 @@ BuiltModel make_model(const std::filesystem::path& mesh_path, const Config& conf
     mesh = mesh::read_mesh(mesh_path);
     inputs.push_back(mesh_path);
   }
-  if (const auto files = read_matrix_files(config)) {
-    if (mesh.has_value() != files->dofs.empty())
+  if (const auto table = config.find_table("matrices")) {
+    const MatrixFiles files = matrix_files_keys().read(*table);
+    config.finish();
+    if (mesh.has_value() != files.dofs.empty())
       throw InputError(fmt::format("{}: [matrices]: found {}, expected one of the two",
                                    config.where(),
                                    mesh ? "a mesh and dofs" : "neither a mesh nor dofs"));
-    inputs.insert(inputs.end(), {files->K, files->M});
-    if (!files->dofs.empty()) inputs.push_back(files->dofs);
-    BuiltModel built = import_matrices(*files, mesh ? &*mesh : nullptr);
+    inputs.insert(inputs.end(), {files.K, files.M});
+    if (!files.dofs.empty()) inputs.push_back(files.dofs);
+    BuiltModel built = import_matrices(files, mesh ? &*mesh : nullptr);
     clock.lap("import");
     return built;
   }

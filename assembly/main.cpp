@@ -6,6 +6,7 @@
 #include "core/base/large_pages.hpp"
 #include "core/base/log.hpp"
 #include "core/base/write_artefact.hpp"
+#include "core/keys/describe.hpp"
 
 namespace {
 
@@ -18,27 +19,13 @@ The smallest fe.toml has a material for each region of the mesh:
   E_gpa = 110.0        # or E [Pa]
   nu = 0.26
   rho = 7200.0         # [kg/m3]
-Further tables, any number of each:
-  [damping]       ratio at at_hz, or alpha and beta:  D = alpha K + beta M
-  [system.NAME]   rectangular, cylindrical or spherical axes for directions
-  [[point]]       reference node with 6 DoFs of its own
-  [[support]]     surface, node_set or point held at zero
-  [[coupling]]    reference node that follows a surface (RBE3) or that nodes follow (RBE2)
-  [[equation]]    linear relation of displacements
-  [[tie]]         non-matching surfaces;  [[bolt]]  a cut shank with its tension
-  [[contact]]     grid of patches on a cylinder surface, one radial DoF each
-  [[mean]], [[sensor]], [[nodes]]  mean displacement of a surface, node nearest to a point, node set
-  [[point_mass]]  mass and inertia on a point, coupling, sensor or node set
-  [[heat]]        steady temperature field by films, fluxes, fixed temperatures, sources; tables of points
-  [[load]]        pressure, resultant, force, gravity, centrifugal, nodal, displacement, temperature
-  [[case]]        a sum of loads
 Matrices that another program assembled, instead of all these tables:
   [matrices]
   K = "stiffness.mtx"  # Matrix Market, or lines "i j value" as Abaqus writes
   M = "mass.mtx"
   dofs = "dofs.tsv"    # meaning of each row (docs/formats.md); default: x y z of the mesh's nodes
   units = "mm-t-s"     # of K and M, default "m-kg-s"
-assembly/README.md documents every key; samples/truck_diesel/block.fe.toml is a complete sample.
+clatter-assembly keys prints every key; samples/truck_diesel/block.fe.toml is a complete sample.
 Next: clatter-modal block.fe.h5 (modes), clatter-modal statics block.fe.h5 (load cases),
  clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5)";
 
@@ -75,6 +62,7 @@ int main(int argc, char** argv) {
   line.output("-o,--output", a.output, "the model to write (.fe.h5)", true);
   line.blas();
   line.memory_limit("a temperature field ([[heat]]) is refused when it cannot be");
+  clatter::keys::add_keys_command(line, {&clatter::assembly::recipe_table()});
   line.action([&a](const clatter::CommonOptions& common) { assemble_part(a, common); });
   return line.run(argc, argv);
 }

@@ -34,7 +34,7 @@ void add_rows_to_part(const AddRowsArguments& a, const CommonOptions& common) {
   check_same_model(a, stored);
   const rom::ReducedModel reduced = rom::read_reduced_model(a.reduced);
   CondenseOptions options =
-      read_condense_options(Config::parse(stored.text, a.reduced.string() + ": request"));
+      condense_keys().read(Config::parse(stored.text, a.reduced.string() + ": request"));
   options.order = rom::read_elimination_order(a.reduced);
   const fe::FeModel model = fe::read_fe_model(a.model);
   fe::require_unknowns(model, "a reduction");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "condense/basis/craig_bampton.hpp"
+#include "condense/basis/modal_damping.hpp"
 #include "condense/interface/interface_modes.hpp"
 #include "core/base/config.hpp"
 #include "core/base/json_line.hpp"
@@ -26,11 +27,12 @@ struct CondenseOptions {
   rom::EliminationOrder order;      // of K_ii, reused where it fits
   bool inertia_invariants = false;  // of a body that rotates, eq. (9)
   std::optional<InterfaceOptions> interface;  // second reduction, of the boundary
+  std::vector<DampingRow> damping_rows;       // which give
   rom::DampingTable modal_damping;  // by eigenmodes of the body, in addition to alpha and beta
 };
 
-/// Reads the options; InputError for unknown keys and invalid values.
-CondenseOptions read_condense_options(const Config& config);
+/// The keys of a rom.toml.
+const keys::Keys<CondenseOptions>& condense_keys();
 
 /// Reduces `model` by Guyan, Craig-Bampton (eq. 13, 14) or Craig-Chang and certifies the result.
 /// Steps and their times go to `clock`. Throws InputError (boundary, surfaces) and NumericsError

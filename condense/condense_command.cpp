@@ -30,7 +30,7 @@ void condense_part(const CondenseArguments& a, const Reducer& reducer,
   StepClock clock;
   const Config config = Config::load(a.config);
   const std::string request = read_whole_file(a.config);
-  CondenseOptions options = read_condense_options(config);
+  CondenseOptions options = condense_keys().read(config);
   if (a.uncertified)
     options.certificate = options.modes.prove_count = options.modes.estimate_error = false;
   options.order = rom::read_elimination_order(a.output);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // clatter-condense: reduces an assembled part to boundary coordinates and modes.
 #include "condense/add_rows_command.hpp"
+#include "condense/condense.hpp"
 #include "condense/condense_command.hpp"
 #include "condense/export_command.hpp"
 #include "condense/predict_command.hpp"
 #include "core/base/blas_kernel.hpp"
 #include "core/base/command_line.hpp"
 #include "core/base/large_pages.hpp"
+#include "core/keys/describe.hpp"
 
 int main(int argc, char** argv) {
   using namespace clatter;
@@ -25,6 +27,7 @@ int main(int argc, char** argv) {
   condense::declare_export(program);
   condense::declare_add_rows(program);
   condense::declare_predict(program);
+  keys::add_keys_command(program, {&condense::condense_keys().table()});
   program.moved("--export", "clatter-condense export REDUCED FILE ...");
   program.moved("--add-rows",
                 "clatter-condense add-rows MODEL --of REDUCED --surface NAME --set NAME -o OUTPUT");

@@ -27,7 +27,7 @@ void predict(const PredictArguments& a, const CommonOptions& common) {
   if (!(request.gflops >= 0.0 && request.gflops <= kMostGflops))
     throw InputError(fmt::format("command line: --gflops: found {}, expected above 0 to {:g}",
                                  request.gflops, kMostGflops));
-  if (!a.config.empty()) request.boundary = read_condense_options(Config::load(a.config)).boundary;
+  if (!a.config.empty()) request.boundary = condense_keys().read(Config::load(a.config)).boundary;
   const PredictedCost cost = predict_cost(request);
   for (const std::string& text : describe(cost)) print_result(text);
   if (common.json) print_json(json_of(cost));

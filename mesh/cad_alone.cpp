@@ -13,8 +13,8 @@ Config config_of_cad(const std::filesystem::path& source, double element_size_mm
 }
 
 double default_element_size_mm(const std::filesystem::path& source, const ChildLimits& limits) {
-  const Config config = config_of_cad(source, 0.0);
-  return default_element_size(list_faces_in_child(config, source.string(), false, limits).list);
+  const PartFile part = part_keys().read(config_of_cad(source, 0.0));
+  return default_element_size(list_faces_in_child(part, source.string(), false, limits).list);
 }
 
 }  // namespace clatter::mesh

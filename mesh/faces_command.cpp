@@ -34,19 +34,19 @@ Config config_of(const std::filesystem::path& input) {
     throw InputError(fmt::format(
         "{}: found a mesh, expected CAD (.step, .brep, .iges) or part.mesh.toml", input.string()));
   deck::refuse_other_format(input);
-  Config config = Config::load(input);
-  if (config.text("kind") == "deck")
-    config.fail("kind", "found 'deck', expected a part with geometry");
-  return config;
+  return Config::load(input);
 }
 
 void show_faces(const FacesArguments& a, const CommonOptions& common) {
   check_limits(a.limits);
   StepClock clock;
   const Config config = config_of(a.input);
-  const ListedFaces found = list_faces_in_child(config, a.input.string(), true, a.limits);
-  const bool from_cad = config.text("kind") == "cad";
-  const std::filesystem::path source = from_cad ? config.table("cad").path("source") : a.input;
+  const PartFile part = part_keys().read(config);
+  if (part.shape.kind == "deck")
+    config.fail("kind", "found \"deck\", expected a part with geometry");
+  const ListedFaces found = list_faces_in_child(part, a.input.string(), true, a.limits);
+  const bool from_cad = part.shape.kind == "cad";
+  const std::filesystem::path source = from_cad ? part.shape.cad.source : a.input;
   clock.lap("faces");
   if (from_cad) say_unit(source, found.list.unit);
   std::vector<std::filesystem::path> inputs = {a.input};

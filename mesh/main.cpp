@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // clatter-mesh: from a part's description, or a deck of another program, to a proved mesh.
 #include "core/base/command_line.hpp"
+#include "core/keys/describe.hpp"
 #include "mesh/cards_command.hpp"
 #include "mesh/export_command.hpp"
 #include "mesh/faces_command.hpp"
 #include "mesh/mesh_command.hpp"
+#include "mesh/part/part_file.hpp"
 
 namespace {
 
@@ -17,14 +19,8 @@ constexpr const char* kEpilog =
   size = [200.0, 20.0, 10.0]
   [mesh]
   element_size_mm = 8.0           # the one number that refines everything
-  elements_per_turn = 12          # on a full circle, where surfaces are curved
-  [[mesh.local]]
-  surface = "x_min"
-  factor = 0.5                    # of the element size
-  elements_per_turn = 24          # and / or: on the surface's smallest radius (fillets, bores)
-  growth = 0.3                    # of the size per distance from the surface
-  [surface.clamp]                 # surfaces by position; filters combine
-  plane = { normal = [1, 0, 0], height = 0.0 }
+
+clatter-mesh keys prints every key.
 
 A deck of Nastran (.bdf, .nas, .dat, .fem) or Abaqus and CalculiX (.inp) is read directly; --recipe writes its materials, couplings, supports and loads to the fe.toml of the next stage:
   clatter-mesh part.inp --units mm-t-s -o part.mesh.h5 --recipe part.fe.toml
@@ -63,6 +59,7 @@ int main(int argc, char** argv) {
   mesh::declare_faces(program);
   mesh::declare_export(program);
   mesh::declare_cards(program);
+  keys::add_keys_command(program, {&mesh::part_keys().table()});
   program.moved("--faces", "clatter-mesh faces PART [-o OUTPUT]");
   return program.run(argc, argv);
 }

@@ -19,7 +19,7 @@
 #include "mesh/deck/recipe/text.hpp"
 #include "mesh/geometry/bare_cad.hpp"
 #include "mesh/geometry/cad_unit.hpp"
-#include "mesh/part/mesher.hpp"
+#include "mesh/part/part_file.hpp"
 #include "mesh/part/part_in_child.hpp"
 #include "mesh/repair/certify_mesh.hpp"
 #include "mesh/repair/poor_cells.hpp"
@@ -28,28 +28,27 @@ namespace clatter::mesh {
 namespace {
 
 /// Geometry meshed by gmsh.
-NewMesh mesh_geometry(const MeshRequest& a, const Config& config, const std::string& name,
+NewMesh mesh_geometry(const MeshRequest& a, const Config& config, const PartFile& part,
                       StepClock& clock) {
   const std::string extension = a.step.empty() ? "" : cad_extension(a.step);
   MadePart made = make_part_in_child(
-      {&config, name, a.input.string(), extension, 1e-3 * a.element_size_mm, a.accept_poor_cells},
+      {&part, a.input.string(), extension, 1e-3 * a.element_size_mm, a.accept_poor_cells},
       a.limits);
   clock.adopt(made.steps);
   NewMesh out{std::move(made.part.mesh),
               std::move(made.part.quality),
               std::move(made.part.certificate),
-              {kMeshSchema, std::move(made.config), {a.input}},
+              {kMeshSchema, config.resolved(), {a.input}},
               {},
               std::move(made.cad),
               {}};
   if (a.element_size_mm > 0.0)
     out.provenance.config += fmt::format("--element-size-mm = {}\n", a.element_size_mm);
-  if (config.text("kind") == "cad")
-    out.provenance.inputs.push_back(config.table("cad").path("source"));
+  if (part.shape.kind == "cad") out.provenance.inputs.push_back(part.shape.cad.source);
   return out;
 }
 
-/// The names of --mass and of `mass` in [deck].
+/// The names of --mass, and of `mass` in [deck].
 const std::vector<std::string> kMassForms = {"as in the deck", "consistent", "lumped"};
 
 std::optional<deck::MassForm> mass_form(const std::string& name, const std::string& where) {
@@ -100,7 +99,7 @@ NewMesh mesh_bare_cad(const MeshRequest& a, StepClock& clock) {
     say(fmt::format(
         "mesh: element size {} mm, from the part's volume (--element-size-mm overrides it)", size));
   const Config config = config_of_cad(a.input, size);
-  NewMesh out = mesh_geometry(a, config, config.text("name"), clock);
+  NewMesh out = mesh_geometry(a, config, part_keys().read(config), clock);
   out.provenance.inputs = {a.input};
   out.description = cad_description(a.input, description, size);
   return out;
@@ -118,15 +117,11 @@ NewMesh make_any_mesh(const MeshRequest& a, StepClock& clock) {
   }
   deck::refuse_other_format(a.input);
   const Config config = Config::load(a.input);
-  const std::string name = config.text("name");
-  if (config.text("kind") != "deck") return mesh_geometry(a, config, name, clock);
-  const Config table = config.table("deck");
-  const std::filesystem::path source = table.path("source");
-  const auto units = unit_system_named(table.text("units"), table.where() + ": units");
-  const std::vector<std::string> ignore = table.texts_or("ignore", {});
-  const auto mass = mass_form(table.text_or("mass", kMassForms[0]), table.where() + ": mass");
-  config.finish();
-  NewMesh out = read_mesh_of_deck(source, units, {ignore, mass}, name, a.limits, clock);
+  const PartFile part = part_keys().read(config);
+  if (part.shape.kind != "deck") return mesh_geometry(a, config, part, clock);
+  NewMesh out = read_mesh_of_deck(part.deck.source, part.deck.units,
+                                  {part.deck.ignore, mass_form(part.deck.mass, "deck.mass")},
+                                  part.name, a.limits, clock);
   out.provenance.config = config.resolved();
   out.provenance.inputs.push_back(a.input);
   return out;

@@ -7,6 +7,7 @@
 #include "core/base/log.hpp"
 #include "core/base/whole_file.hpp"
 #include "core/base/write_artefact.hpp"
+#include "core/keys/schema_line.hpp"
 #include "core/mesh/mesh_file.hpp"
 #include "mesh/deck/check.hpp"
 #include "mesh/exports/mesh_export.hpp"
@@ -68,7 +69,7 @@ void write_new_mesh(const MeshArguments& a, const CommonOptions& common) {
     if (a.parts > 0) write_partition(file, partition_cells(made.mesh, a.parts));
     write_certificate(file, made.certificate);
   });
-  if (!a.recipe.empty()) write_whole_file(a.recipe, made.recipe);
+  if (!a.recipe.empty()) write_whole_file(a.recipe, keys::schema_line("fe") + made.recipe);
   if (!made.cad.empty()) write_whole_file(request.step, made.cad);
   if (!made.description.empty())
     keep_description(description_beside(request.output), made.description);

@@ -4,6 +4,8 @@
 #include "core/base/blas_kernel.hpp"
 #include "core/base/command_line.hpp"
 #include "core/base/large_pages.hpp"
+#include "core/keys/describe.hpp"
+#include "core/modes/analysis.hpp"
 #include "modal/compare_command.hpp"
 #include "modal/export_command.hpp"
 #include "modal/modes_command.hpp"
@@ -28,6 +30,7 @@ int main(int argc, char** argv) {
   modal::declare_shape(program);
   modal::declare_compare(program);
   modal::declare_export(program);
+  keys::add_keys_command(program, {&modes::modes_keys().table()});
   program.moved("--static", "clatter-modal statics MODEL -o OUTPUT");
   program.moved("--compare", "clatter-modal compare FULL REDUCED");
   return program.run(argc, argv);

@@ -31,7 +31,7 @@ std::pair<modes::ModesOptions, std::string> choose_options(const ModesArguments&
   std::string resolved;
   if (!a.config.empty()) {
     const Config config = Config::load(a.config);
-    options = modes::read_modes_options(config);
+    options = modes::modes_keys().read(config);
     resolved = config.resolved();
   }
   if (a.count != 0 || a.fmax_hz != 0.0) {

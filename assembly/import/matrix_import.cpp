@@ -80,21 +80,6 @@ SparseMatrix rows_and_columns(const SparseMatrix& lower, const std::vector<int32
 
 }  // namespace
 
-std::optional<MatrixFiles> read_matrix_files(const Config& config) {
-  const auto table = config.find_table("matrices");
-  if (!table) return std::nullopt;
-  MatrixFiles files;
-  files.K = table->path("K");
-  files.M = table->path("M");
-  if (table->has("dofs")) files.dofs = table->path("dofs");
-  files.name = table->text_or("name", "");
-  files.units = unit_system_named(table->text_or("units", "m-kg-s"), table->where());
-  files.alpha = table->number_or("alpha", 0.0, Range::not_negative());
-  files.beta = table->number_or("beta", 0.0, Range::not_negative());
-  config.finish();
-  return files;
-}
-
 BuiltModel import_matrices(const MatrixFiles& files, const mesh::Mesh* mesh) {
   const MatrixRows layout =
       mesh ? matrix_rows(*mesh) : matrix_rows(rom::read_dof_map(files.dofs), files.dofs.string());

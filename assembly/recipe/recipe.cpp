@@ -1,170 +1,118 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "assembly/recipe/recipe_reader.hpp"
+#include "assembly/recipe/recipe.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "assembly/recipe/recipe_keys.hpp"
+
 namespace clatter::assembly {
 
-RecipeReader::RecipeReader(const Config& config, const mesh::Mesh& mesh)
-    : config_(config), mesh_(mesh) {
-  metre_ = config.choice("length_unit", {"m", "mm"}) == "mm" ? 1e-3 : 1.0;
+RecipeKeys::RecipeKeys(const mesh::Mesh& mesh) : names_{mesh} {}
+
+const keys::Keys<RecipeTable>& RecipeKeys::file_keys() {
+  const auto rows = [this](auto& key, RecipeTable& file) {
+    key.length_unit("length_unit", file.metre, {{"m", 1.0}, {"mm", 1e-3}},
+                    "unit of the lengths of this file that name none");
+    key.named("system", file.systems, fe::axes_keys());
+    key.then([this](const Config&, RecipeTable& f) {
+      for (const auto& [name, table] : f.systems) names_.systems[name] = table.axes;
+    });
+    key.named("material", file.materials, material_keys());
+    key.then(
+        [this](const Config& config, RecipeTable& f) { finish_materials(config, f.materials); });
+    key.table("matrices", file.matrix_files, matrix_files_keys());
+    key.one_of({"material", "matrices"});
+    key.table("mass", file.mass, mass_keys());
+    key.table("damping", file.damping, damping_keys());
+    key.tables("point", file.points, point_keys());
+    key.tables("support", file.supports, support_keys());
+    key.tables("coupling", file.couplings, coupling_keys());
+    key.tables("equation", file.equations, equation_keys());
+    key.tables("spring", file.springs, spring_keys());
+    key.tables("matrix", file.matrices, matrix_keys());
+    key.tables("straight_edges", file.straight_edges, straight_edges_keys());
+    key.tables("tie", file.ties, tie_keys(false));
+    key.tables("bolt", file.bolts, tie_keys(true));
+    key.tables("contact", file.contacts, contact_keys());
+    key.tables("mean", file.means, mean_keys());
+    key.tables("sensor", file.sensors, sensor_keys());
+    key.tables("nodes", file.nodes, nodes_keys());
+    key.tables("point_mass", file.point_masses, point_mass_keys());
+    key.tables("heat", file.heats, heat_keys());
+    key.tables("load", file.loads, load_keys());
+    key.tables("case", file.cases, case_keys());
+    key.check([this](const Config& config, RecipeTable& f) { check_hanging(config, f); });
+  };
+  return keep<RecipeTable>(
+      "fe.toml", "materials of a part, what is joined, held and loaded, and the sets that are kept",
+      rows);
 }
 
-void RecipeReader::fail_unknown(const Config& table, std::string_view key, const std::string& found,
-                                const std::vector<std::string>& available) {
-  table.fail(key,
-             fmt::format("found \"{}\", expected one of: {}", found, fmt::join(available, ", ")));
+/// Mid-side nodes without a cell of their own need straight edges.
+void RecipeKeys::check_hanging(const Config& config, const RecipeTable& file) const {
+  const bool named = std::any_of(
+      file.straight_edges.begin(), file.straight_edges.end(),
+      [](const StraightEdgesSpec& spec) { return spec.node_set == mesh::kHangingMidSideNodes; });
+  if (!named && names_.mesh.node_sets.contains(mesh::kHangingMidSideNodes))
+    config.fail("straight_edges",
+                fmt::format("found none, the mesh has the node set \"{0}\": expected "
+                            "[[straight_edges]] with node_set = \"{0}\"",
+                            mesh::kHangingMidSideNodes));
 }
 
-std::string RecipeReader::where(const Config& table, const std::string& what) {
-  return fmt::format("{}: {}", table.where(), what);
+namespace {
+
+/// The specs of tables that have more than them.
+template <class Table>
+auto specs_of(std::vector<Table>& tables) {
+  std::vector<decltype(Table::spec)> specs;
+  for (Table& table : tables) specs.push_back(std::move(table.spec));
+  return specs;
 }
 
-Eigen::Vector3d RecipeReader::vector(const Config& table, std::string_view key) {
-  return Eigen::Vector3d(table.numbers(key, 3).data());
+template <class T>
+std::vector<T> joined(std::vector<T> first, const std::vector<T>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
 }
 
-Eigen::Vector3d RecipeReader::point(const Config& table, std::string_view key) const {
-  return metre_ * vector(table, key);
-}
+}  // namespace
 
-Eigen::Vector3d RecipeReader::unit_vector(const Config& table, std::string_view key) {
-  const Eigen::Vector3d v = vector(table, key);
-  if (!(v.norm() > 0.0)) table.fail(key, "found the zero vector, expected a direction");
-  return v.normalized();
-}
-
-std::optional<std::pair<double, double>> RecipeReader::range(const Config& table,
-                                                             std::string_view key) const {
-  if (!table.has(key)) return std::nullopt;
-  const std::vector<double> ends = table.numbers(key, 2);
-  if (!(ends[0] < ends[1]))
-    table.fail(key, fmt::format("found [{:g}, {:g}], expected ascending", ends[0], ends[1]));
-  return std::pair{metre_ * ends[0], metre_ * ends[1]};
-}
-
-std::vector<int> RecipeReader::directions(const Config& table, std::string_view key,
-                                          const std::vector<int>& fallback, int allowed) {
-  if (!table.has(key)) return fallback;
-  std::vector<std::string> names;
-  if (table.is_list(key))
-    names = table.texts(key);
-  else
-    for (const char axis : table.text(key)) names.emplace_back(1, axis);
-  const auto last = kDofNames.begin() + allowed;
-  std::vector<int> found;
-  for (const std::string& name : names) {
-    const auto at = std::find(kDofNames.begin(), last, name);
-    const auto d = static_cast<int>(at - kDofNames.begin());
-    if (at == last || std::find(found.begin(), found.end(), d) != found.end())
-      table.fail(key, fmt::format("found \"{}\", expected each of {} at most once",
-                                  fmt::join(names, " "), fmt::join(kDofNames.begin(), last, " ")));
-    found.push_back(d);
-  }
-  if (found.empty()) table.fail(key, "found none, expected at least one direction");
-  return found;
-}
-
-std::string RecipeReader::surface(const Config& table, std::string_view key) const {
-  const std::string name = table.text(key);
-  if (!mesh_.surfaces.contains(name)) fail_unknown(table, key, name, names_of(mesh_.surfaces));
-  if (mesh_.surfaces.at(name).face_count() == 0)
-    table.fail(key, fmt::format("found \"{}\" without faces, expected some", name));
-  return name;
-}
-
-int32_t RecipeReader::region(const Config& table, std::string_view key,
-                             const std::string& name) const {
-  const auto found = std::find(mesh_.regions.begin(), mesh_.regions.end(), name);
-  if (found == mesh_.regions.end()) fail_unknown(table, key, name, mesh_.regions);
-  return static_cast<int32_t>(found - mesh_.regions.begin());
-}
-
-std::string RecipeReader::node_set(const Config& table) const {
-  const std::string name = table.text("node_set");
-  if (!mesh_.node_sets.contains(name))
-    fail_unknown(table, "node_set", name, names_of(mesh_.node_sets));
-  if (mesh_.node_sets.at(name).empty())
-    table.fail("node_set", fmt::format("found \"{}\" without nodes, expected some", name));
-  return name;
-}
-
-Selection RecipeReader::selection(const Config& table, const std::string& what,
-                                  bool or_point) const {
-  Selection selection;
-  selection.where = where(table, what);
-  const bool by_point = or_point && table.has("point");
-  if (table.has("surface")) {
-    if (table.has("node_set") || by_point)
-      table.fail(by_point ? "point" : "node_set", "found a surface as well, expected one");
-    selection.surface = surface(table);
-  } else if (by_point) {
-    if (table.has("node_set")) table.fail("node_set", "found a point as well, expected one");
-    selection.point = known_point(table, "point", table.text("point"));
-  } else {
-    selection.node_set = node_set(table);
-  }
-  return selection;
-}
-
-std::string RecipeReader::new_set(const Config& table) {
-  const std::string name = table.text("name");
-  if (name.empty() || name.find('/') != std::string::npos)
-    table.fail("name", fmt::format("found \"{}\", expected a name without '/'", name));
-  if (!sets_.insert(name).second)
-    table.fail("name", fmt::format("found \"{}\" twice, expected different names", name));
-  return name;
-}
-
-std::string RecipeReader::known_set(const Config& table, std::string_view key) const {
-  const std::string name = table.text(key);
-  if (!sets_.contains(name)) fail_unknown(table, key, name, {sets_.begin(), sets_.end()});
-  return name;
-}
-
-std::string RecipeReader::known_point(const Config& table, std::string_view key,
-                                      const std::string& name) const {
-  if (!points_.contains(name)) fail_unknown(table, key, name, {points_.begin(), points_.end()});
-  return name;
-}
-
-fe::Axes RecipeReader::axes(const Config& table) const {
-  if (!table.has("system")) return {};
-  const std::string name = table.text("system");
-  if (!systems_.contains(name)) fail_unknown(table, "system", name, names_of(systems_));
-  return systems_.at(name);
-}
-
-Recipe RecipeReader::read() {
-  Recipe recipe;
-  systems();
-  materials(recipe);
-  mass(recipe);
-  damping(recipe);
-  points(recipe);
-  supports(recipe);
-  couplings(recipe);
-  equations(recipe);
-  springs(recipe);
-  matrices(recipe);
-  straight_edges(recipe);
-  ties(recipe);
-  contacts(recipe);
-  means(recipe);
-  nodes(recipe);
-  point_masses(recipe);
-  heats(recipe);
-  loads(recipe);
-  cases(recipe);
-  config_.finish();
+Recipe RecipeKeys::read(const Config& config) {
+  RecipeTable file = file_.read(config);
+  Recipe recipe{.materials = std::move(materials_),
+                .mass = file.mass,
+                .damping = file.damping,
+                .points = std::move(file.points),
+                .supports = std::move(file.supports),
+                .couplings = specs_of(file.couplings),
+                .equations = specs_of(file.equations),
+                .springs = specs_of(file.springs),
+                .matrices = specs_of(file.matrices),
+                .straight_edges = std::move(file.straight_edges),
+                .ties = joined(std::move(file.ties), file.bolts),
+                .contacts = specs_of(file.contacts),
+                .means = std::move(file.means),
+                .nodes = joined(specs_of(file.sensors), specs_of(file.nodes)),
+                .point_masses = specs_of(file.point_masses),
+                .heats = std::move(file.heats),
+                .loads = specs_of(file.loads),
+                .cases = {},
+                .files = std::move(files_)};
+  for (CaseTable& one : file.cases) recipe.cases[one.name] = std::move(one.factors);
   return recipe;
 }
 
 Recipe read_recipe(const Config& config, const mesh::Mesh& mesh) {
-  return RecipeReader(config, mesh).read();
+  return RecipeKeys(mesh).read(config);
+}
+
+const keys::Table& recipe_table() {
+  static const mesh::Mesh none;
+  static const RecipeKeys keys(none);
+  return keys.table();
 }
 
 }  // namespace clatter::assembly

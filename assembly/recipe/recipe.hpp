@@ -22,8 +22,9 @@ namespace clatter::assembly {
 
 /// [damping]: D = alpha K + beta M.
 struct DampingSpec {
-  double alpha = 0.0;  // [s]
-  double beta = 0.0;   // [1/s]
+  double alpha = 0.0;                  // [s]
+  double beta = 0.0;                   // [1/s]
+  std::optional<double> ratio, at_hz;  // of critical at a frequency, which give alpha
 };
 
 /// A surface or a node set of the mesh, or a point.
@@ -35,7 +36,8 @@ struct Selection {
 /// [[point]]: a reference node with six DoFs of its own.
 struct PointSpec {
   ReferencePoint point;
-  int32_t number = 0;  // in the deck of the mesh; 0: none
+  int32_t number = 0;    // in the deck of the mesh; 0: none
+  std::string node_set;  // of its node, or empty
   std::string where;
 };
 
@@ -44,6 +46,7 @@ struct SupportSpec {
   std::string name;
   Selection selection;
   std::vector<int> directions = {0, 1, 2};  // of `axes`; 3 ... 5: rotations of a point
+  std::string system;                       // name of `axes`, or empty
   fe::Axes axes;
 };
 
@@ -138,12 +141,14 @@ struct HeatSpec {
   /// Of a fluid at a surface.
   struct Film {
     std::string surface;
-    Profile coefficient;  // [W/(m2 K)]
-    Profile temperature;  // of the fluid [K]
+    Profile coefficient;            // [W/(m2 K)]
+    Profile temperature;            // of the fluid [K], at the same positions
+    std::filesystem::path table{};  // of points, from which both come; or empty
   };
   struct Flux {
     std::string surface;
-    Profile flux;  // into the part [W/m2]
+    Profile flux;                   // into the part [W/m2]
+    std::filesystem::path table{};  // of points, from which it comes; or empty
   };
   struct Fixed {
     Selection selection;
@@ -151,6 +156,7 @@ struct HeatSpec {
   };
   struct Source {
     std::vector<std::string> regions;
+    double value = 0.0;         // [W/m3]
     std::vector<double> power;  // of each region of the mesh [W/m3]
   };
   struct Contact {
@@ -216,6 +222,9 @@ struct Recipe {
   std::map<std::string, std::map<std::string, double>> cases;  // [[case]]: factors of loads
   std::vector<std::filesystem::path> files;                    // read in addition to the fe.toml
 };
+
+/// The keys of a fe.toml.
+const keys::Table& recipe_table();
 
 /// Reads the entire file and checks it against the mesh; InputError with "file:line: key: found
 /// ..., expected ..." for unknown keys, regions, surfaces, sets, duplicate names, values out of

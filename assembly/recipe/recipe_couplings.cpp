@@ -6,230 +6,324 @@
 #include <algorithm>
 #include <limits>
 
-#include "assembly/recipe/recipe_reader.hpp"
+#include "assembly/recipe/recipe_keys.hpp"
 
 namespace clatter::assembly {
 
-void RecipeReader::points(Recipe& recipe) {
-  for (const Config& table : config_.tables("point")) {
-    PointSpec spec;
-    spec.point.name = new_set(table);
-    points_.insert(spec.point.name);
-    spec.where = where(table, "point " + spec.point.name);
-    if (table.has("node_set")) {
-      if (table.has("at")) table.fail("at", "found a node_set as well, expected one");
-      const std::vector<int32_t>& nodes = mesh_.node_set(node_set(table));
+using keys::Type;
+
+const keys::Keys<PointSpec>& RecipeKeys::point_keys() {
+  const auto rows = [this](auto& key, PointSpec& point) {
+    key.name("name", point.point.name, "name of the point and its set").required();
+    key.text("node_set", point.node_set, "a set of one node of the mesh, where it is");
+    key.vector("at", point.point.position, {}, "its position").in_length_unit();
+    key.integer("number", point.number, {1.0, std::numeric_limits<int32_t>::max()},
+                "number of its node in the deck of the mesh, for exports")
+        .needs("at");
+    key.one_of({"node_set", "at"});
+    key.check([this](const Config& table, PointSpec& p) {
+      names_.add_set(table, p.point.name);
+      names_.points.insert(p.point.name);
+      p.where = where(table, "point " + p.point.name);
+      if (p.node_set.empty()) return;
+      names_.check_node_set(table, p.node_set);
+      const std::vector<int32_t>& nodes = names_.mesh.node_set(p.node_set);
       if (nodes.size() != 1)
         table.fail("node_set", fmt::format("found {} nodes, expected one", nodes.size()));
-      spec.point.node = nodes[0];
-      spec.point.position = mesh_.nodes.row(nodes[0]).transpose();
-      if (!mesh_.node_ids.empty()) spec.number = mesh_.node_ids[static_cast<size_t>(nodes[0])];
-    } else {
-      spec.point.position = point(table, "at");
-      if (table.has("number"))
-        spec.number = static_cast<int32_t>(
-            table.integer("number", {1.0, std::numeric_limits<int32_t>::max()}));
-    }
-    recipe.points.push_back(spec);
-  }
+      p.point.node = nodes[0];
+      p.point.position = names_.mesh.nodes.row(nodes[0]).transpose();
+      if (!names_.mesh.node_ids.empty())
+        p.number = names_.mesh.node_ids[static_cast<size_t>(nodes[0])];
+    });
+  };
+  return keep<PointSpec>("point", "a reference node with six DoFs of its own", rows);
 }
 
-void RecipeReader::supports(Recipe& recipe) const {
-  for (const Config& table : config_.tables("support")) {
-    SupportSpec spec;
-    spec.name = table.text_or("name", fmt::format("support_{}", recipe.supports.size() + 1));
-    for (const SupportSpec& other : recipe.supports)
-      if (other.name == spec.name)
-        table.fail("name", fmt::format("found \"{}\" twice, expected different names", spec.name));
-    spec.selection = selection(table, "support " + spec.name, true);
-    spec.directions =
-        directions(table, "directions", {0, 1, 2}, spec.selection.point.empty() ? 3 : 6);
-    spec.axes = axes(table);
-    recipe.supports.push_back(spec);
-  }
+const keys::Keys<SupportSpec>& RecipeKeys::support_keys() {
+  const auto rows = [this](auto& key, SupportSpec& support) {
+    key.text("name", support.name, "name for messages; support_1, support_2, ... without it")
+        .distinct();
+    select_by(key, support.selection, {"surface", "node_set", "point"});
+    directions(key, support.directions, "directions that are held; x, y and z without it");
+    key.text("system", support.system, "name of a [system] with the directions");
+    key.check([this](const Config& table, SupportSpec& s) {
+      const int number = next("support");
+      if (s.name.empty()) s.name = fmt::format("support_{}", number);
+      names_.check(table, "support " + s.name, s.selection);
+      check_directions(table, s.selection, s.directions);
+      s.axes = names_.axes(table, s.system);
+    });
+  };
+  return keep<SupportSpec>("support", "displacements held at zero, or at the values of a load",
+                           rows);
 }
 
-/// `point`: coordinates of its own reference node, or the name of a [[point]].
-void RecipeReader::reference(const Config& table, CouplingSpec& spec) {
-  if (table.has("point") && !table.is_list("point")) {
-    spec.on_point = known_point(table, "point", table.text("point"));
-    spec.name = table.text_or("name", "on " + spec.on_point);
-  } else {
-    spec.name = new_set(table);
-    spec.kind = table.choice("kind", {"node", "bearing", "mount"});
-    if (table.has("point")) spec.at = point(table, "point");
-  }
-  spec.where = where(table, "coupling " + spec.name);
+const keys::Keys<MemberTable>& RecipeKeys::member_keys(bool turned) {
+  const auto rows = [this, turned](auto& key, MemberTable& members) {
+    member_rows(key, members);
+    if (turned) system_row(key, members);
+    key.number("weight", members.weight, Range::positive(),
+               "weight of each node; on a surface of each area");
+    directions(key, members.directions,
+               "directions that count; those of the table above without it");
+    key.check([this](const Config& table, MemberTable& m) {
+      check_members(table, m);
+      if (m.selection.surface.empty() && m.selection.node_set.empty() && m.points.empty())
+        table.fail("surface", "give surface, node_set or points");
+    });
+  };
+  return keep<MemberTable>("term", "some of the nodes and points, with their weight and directions",
+                           rows);
 }
 
-/// Selections of the table itself, then of its `term` tables; `all`: directions of those that have
-/// none.
-std::vector<TermSpec> RecipeReader::terms(const Config& table, const std::string& what,
-                                          const std::vector<int>& all, bool turned) const {
+void RecipeKeys::check_members(const Config& table, MemberTable& members) const {
+  names_.check(table, "", members.selection);
+  members.axes = names_.axes(table, members.system);
+  for (const std::string& name : members.points) check_known(table, "points", name, names_.points);
+}
+
+std::vector<TermSpec> RecipeKeys::terms_of(const std::string& what, const MemberTable& own,
+                                           const std::vector<MemberTable>& given,
+                                           const std::vector<int>& all) {
   std::vector<TermSpec> terms;
-  const auto read_selections = [&](const Config& from, const TermSpec& like) {
-    TermSpec term = like;
-    if (from.has("surface") || from.has("node_set")) {
-      term.selection = selection(from, what);
-      terms.push_back(term);
-    }
-    for (const std::string& name : from.texts_or("points", {})) {
-      term.selection = Selection{"", "", known_point(from, "points", name), where(table, what)};
+  const auto add = [&](const MemberTable& members) {
+    TermSpec term{members.selection, members.weight,
+                  members.directions.empty() ? all : members.directions};
+    term.selection.where += ": " + what;
+    const Selection selection = term.selection;
+    if (!selection.surface.empty() || !selection.node_set.empty()) terms.push_back(term);
+    for (const std::string& name : members.points) {
+      term.selection = Selection{"", "", name, selection.where};
       terms.push_back(term);
     }
   };
-  read_selections(table, {{}, 1.0, all, turned ? axes(table) : fe::Axes{}});
-  for (const Config& part : table.tables("term")) {
-    TermSpec like;
-    like.weight = part.number_or("weight", 1.0, Range::positive());
-    like.directions = directions(part, "directions", all, 6);
-    if (turned) like.axes = axes(part);
-    const size_t before = terms.size();
-    read_selections(part, like);
-    if (terms.size() == before)
-      part.fail("term", "found no nodes, expected a surface, node_set or points");
-  }
-  if (terms.empty())
-    table.fail("surface", "found nothing to couple, expected a surface, node_set, points or terms");
+  add(own);
+  for (const MemberTable& members : given) add(members);
   return terms;
 }
 
-void RecipeReader::couplings(Recipe& recipe) {
-  for (const Config& table : config_.tables("coupling")) {
-    CouplingSpec spec;
-    reference(table, spec);
-    spec.rigid = table.choice("type", {"distributing", "rigid"}) == "rigid";
-    if (spec.rigid && !table.tables("term").empty())
-      table.fail("term", "found terms in a rigid coupling, expected none");
-    spec.terms = terms(table, "coupling " + spec.name, {0, 1, 2});
-    if (table.has("dofs")) {
-      if (spec.rigid || table.has("directions"))
-        table.fail("dofs", "found a rigid coupling or directions as well, expected directions");
-      const int64_t dofs = table.integer("dofs");
-      if (dofs != 6 && dofs != 3)
-        table.fail("dofs", fmt::format("found {}, expected 6 or 3", dofs));
-      if (dofs == 3) spec.directions = {0, 1, 2};
-    }
-    spec.directions = directions(table, "directions", spec.directions, 6);
-    std::sort(spec.directions.begin(), spec.directions.end());
-    recipe.couplings.push_back(spec);
+const keys::Keys<CouplingTable>& RecipeKeys::coupling_keys() {
+  CouplingTable standard;
+  standard.spec.kind = "node";
+
+  const auto rows = [this](auto& key, CouplingTable& coupling) {
+    CouplingSpec& spec = coupling.spec;
+    key.name("name", spec.name, "name of its set; not needed on a [[point]]");
+    key.choice("kind", spec.kind, {"node", "bearing", "mount"}, "kind of its set");
+    key.value("point", coupling, "three coordinates or a name",
+              "position of the reference node [length_unit], or the name of a [[point]] "
+              "that is it; the surface's centroid without it",
+              [](const Config& table, const std::string& name, CouplingTable& c) {
+                if (!table.is_list(name))
+                  c.spec.on_point = table.text(name);
+                else
+                  c.spec.at = table.metre() * Eigen::Vector3d(table.numbers(name, 3).data());
+              })
+        .types({Type::kText, Type::kNumbers});
+    key.choice("type", spec.rigid, {{"distributing", false}, {"rigid", true}},
+               "whether the reference follows a surface or nodes, or these follow it");
+    member_rows(key, coupling.members);
+    key.tables("term", coupling.terms, member_keys(false))
+        .needs("type", "distributing", "followers have no weights");
+    directions(key, spec.directions,
+               "directions of the reference node, of a rigid coupling those of the followers; all "
+               "without it");
+    key.integer("dofs", coupling.dofs, {3, 6},
+                "6 or 3: of the reference node, as directions = \"xyz\"")
+        .needs("type", "distributing")
+        .excludes("directions");
+    key.check([this](const Config& table, CouplingTable& c) { finish_coupling(table, c); });
+  };
+  return keep<CouplingTable>(
+      "coupling",
+      "a reference node that follows a surface or nodes (distributing, RBE3), or that they "
+      "follow (rigid, RBE2)",
+      rows, standard);
+}
+
+void RecipeKeys::finish_coupling(const Config& table, CouplingTable& c) {
+  CouplingSpec& spec = c.spec;
+  if (spec.on_point.empty()) {
+    if (spec.name.empty())
+      table.fail("name", "is missing, a coupling without a [[point]] needs it");
+    names_.add_set(table, spec.name);
+  } else {
+    check_known(table, "point", spec.on_point, names_.points);
+    if (table.has("kind")) table.fail("kind", "is that of the [[point]]: leave it out");
+    if (spec.name.empty()) spec.name = "on " + spec.on_point;
+    spec.kind.clear();
+  }
+  if (c.dofs && *c.dofs != 3 && *c.dofs != 6)
+    table.fail("dofs", fmt::format("found {}, expected 6 or 3", *c.dofs));
+  if (c.dofs == 3) spec.directions = {0, 1, 2};
+  std::sort(spec.directions.begin(), spec.directions.end());
+  const std::string what = "coupling " + spec.name;
+  spec.where = where(table, what);
+  check_members(table, c.members);
+  spec.terms = terms_of(what, c.members, c.terms, {0, 1, 2});
+  if (spec.terms.empty()) table.fail("surface", "give surface, node_set, points or terms");
+}
+
+const keys::Keys<TermTable>& RecipeKeys::term_keys() {
+  const auto rows = [this](auto& key, TermTable& table) {
+    EquationSpec::Term& term = table.term;
+    select_by(key, term.selection, {"node_set", "point"});
+    key.choice("direction", term.direction,
+               {{"x", 0}, {"y", 1}, {"z", 2}, {"rx", 3}, {"ry", 4}, {"rz", 5}},
+               "direction of the displacement or rotation")
+        .required();
+    key.number("coefficient", table.coefficient, {},
+               "coefficient in the sum; 1 of springs without it, and a lever arm [m] at a "
+               "rotation beside displacements");
+    key.check([this](const Config& config, TermTable& t) {
+      Selection& selection = t.term.selection;
+      names_.check(config, "", selection);
+      t.term.coefficient = t.coefficient.value_or(1.0);
+      if (!selection.point.empty()) return;
+      const size_t count = names_.mesh.node_set(selection.node_set).size();
+      if (count != 1) config.fail("node_set", fmt::format("found {} nodes, expected one", count));
+      if (t.term.direction >= 3)
+        config.fail("direction",
+                    fmt::format("found \"{}\", expected x, y or z: nodes do not rotate",
+                                kDofNames[static_cast<size_t>(t.term.direction)]));
+    });
+  };
+  return keep<TermTable>("terms", "one direction of one node or point", rows);
+}
+
+/// The terms with their position in messages.
+template <class Spec>
+void finish_terms(const Config& table, const std::string& what, WithTerms<Spec>& given) {
+  given.spec.where = where(table, what);
+  for (TermTable& one : given.terms) {
+    one.term.selection.where += ": " + what;
+    given.spec.terms.push_back(one.term);
   }
 }
 
-/// One direction of one node or point.
-EquationSpec::Term RecipeReader::term(const Config& table, const std::string& what) const {
-  EquationSpec::Term term;
-  term.selection = selection(table, what, true);
-  if (!term.selection.surface.empty())
-    table.fail("surface", "found a surface, expected a node_set of one node or a point");
-  const bool node = term.selection.point.empty();
-  if (node && mesh_.node_set(term.selection.node_set).size() != 1)
-    table.fail("node_set", fmt::format("found {} nodes, expected one",
-                                       mesh_.node_set(term.selection.node_set).size()));
-  const std::string name = table.text("direction");
-  const auto last = kDofNames.begin() + (node ? 3 : 6);
-  const auto at = std::find(kDofNames.begin(), last, name);
-  if (at == last) fail_unknown(table, "direction", name, {kDofNames.begin(), last});
-  term.direction = static_cast<int>(at - kDofNames.begin());
-  return term;
-}
-
-void RecipeReader::equations(Recipe& recipe) const {
-  for (const Config& table : config_.tables("equation")) {
-    EquationSpec spec;
-    spec.where = where(table, fmt::format("equation {}", recipe.equations.size() + 1));
-    for (const Config& part : table.tables("terms")) {
-      spec.terms.push_back(term(part, "equation"));
-      spec.terms.back().coefficient = part.number("coefficient");
-    }
-    if (spec.terms.empty() || spec.terms[0].coefficient == 0.0)
-      table.fail("terms",
-                 "found none, or a first coefficient of zero, expected a dependent term first");
-    recipe.equations.push_back(spec);
-  }
+const keys::Keys<WithTerms<EquationSpec>>& RecipeKeys::equation_keys() {
+  const auto rows = [this](auto& key, WithTerms<EquationSpec>& equation) {
+    key.tables("terms", equation.terms, term_keys()).required();
+    key.check([this](const Config& table, WithTerms<EquationSpec>& e) {
+      finish_terms(table, fmt::format("equation {}", next("equation")), e);
+      const std::vector<Config> parts = table.tables("terms");
+      for (size_t i = 0; i < parts.size(); ++i)
+        if (!e.terms[i].coefficient)
+          parts[i].fail("coefficient", "found nothing, expected a number");
+      if (e.terms.empty() || *e.terms[0].coefficient == 0.0)
+        table.fail("terms",
+                   "found none, or a first coefficient of zero, expected a dependent term "
+                   "first");
+    });
+  };
+  return keep<WithTerms<EquationSpec>>(
+      "equation", "a sum of displacements that is zero; the first depends on the others", rows);
 }
 
 /// Rotations beside displacements have a lever arm.
-void RecipeReader::springs(Recipe& recipe) const {
-  for (const Config& table : config_.tables("spring")) {
-    SpringSpec spec;
-    spec.name = table.text_or("name", fmt::format("spring_{}", recipe.springs.size() + 1));
-    spec.where = where(table, "spring " + spec.name);
-    spec.stiffness = table.number("stiffness", Range::positive());
-    for (const Config& part : table.tables("terms")) {
-      spec.terms.push_back(term(part, "spring " + spec.name));
-      spec.terms.back().coefficient = part.number_or("coefficient", 1.0);
-      if (spec.terms.back().coefficient == 0.0)
-        part.fail("coefficient", "found 0, expected a nonzero number");
-      if (spec.terms.back().direction / 3 != spec.terms.front().direction / 3 &&
-          !part.has("coefficient"))
-        part.fail("coefficient",
-                  "found none at a rotation beside a displacement, expected a lever arm [m]");
-    }
-    if (spec.terms.empty()) table.fail("terms", "found none, expected one (to the ground) or more");
-    recipe.springs.push_back(std::move(spec));
-  }
+const keys::Keys<WithTerms<SpringSpec>>& RecipeKeys::spring_keys() {
+  const auto rows = [this](auto& key, WithTerms<SpringSpec>& spring) {
+    key.text("name", spring.spec.name, "name for messages; spring_1, spring_2, ... without it");
+    key.number("stiffness", spring.spec.stiffness, Range::positive(),
+               "force over the sum; moment over it where all are rotations [N m/rad]")
+        .required()
+        .shown_in("N/m");
+    key.tables("terms", spring.terms, term_keys()).required();
+    key.check([this](const Config& table, WithTerms<SpringSpec>& s) {
+      const int number = next("spring");
+      if (s.spec.name.empty()) s.spec.name = fmt::format("spring_{}", number);
+      finish_terms(table, "spring " + s.spec.name, s);
+      const std::vector<Config> parts = table.tables("terms");
+      for (size_t i = 0; i < parts.size(); ++i) {
+        if (s.terms[i].coefficient == 0.0)
+          parts[i].fail("coefficient", "found 0, expected a nonzero number");
+        if (s.terms[i].term.direction / 3 != s.terms[0].term.direction / 3 &&
+            !s.terms[i].coefficient)
+          parts[i].fail("coefficient",
+                        "found none at a rotation beside a displacement, expected a lever "
+                        "arm [m]");
+      }
+      if (parts.empty()) table.fail("terms", "found none, expected one (to the ground) or more");
+    });
+  };
+  return keep<WithTerms<SpringSpec>>(
+      "spring", "a stiffness of a sum of displacements, one to the ground or several", rows);
 }
 
-/// K or M as rows, each up to the diagonal.
-void RecipeReader::matrices(Recipe& recipe) const {
-  for (const Config& table : config_.tables("matrix")) {
-    MatrixSpec spec;
-    spec.name = table.text_or("name", fmt::format("matrix_{}", recipe.matrices.size() + 1));
-    spec.where = where(table, "matrix " + spec.name);
-    spec.is_mass = table.has("M");
-    if (spec.is_mass == table.has("K"))
-      table.fail("K", fmt::format("found {}, expected one of K and M",
-                                  spec.is_mass ? "M as well" : "neither K nor M"));
-    for (const Config& part : table.tables("terms"))
-      spec.terms.push_back(term(part, "matrix " + spec.name));
-    const auto n = static_cast<Eigen::Index>(spec.terms.size());
-    const char* key = spec.is_mass ? "M" : "K";
-    const std::vector<double> lower = table.numbers_or(key, {});
-    if (n == 0 || static_cast<Eigen::Index>(lower.size()) != n * (n + 1) / 2)
-      table.fail(key, fmt::format("found {} numbers for {} terms, expected {}: the lower triangle "
-                                  "row by row",
-                                  lower.size(), n, n * (n + 1) / 2));
-    spec.values.resize(n, n);
-    size_t next = 0;
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (Eigen::Index j = 0; j <= i; ++j) spec.values(i, j) = spec.values(j, i) = lower[next++];
-    recipe.matrices.push_back(std::move(spec));
-  }
+const keys::Keys<WithTerms<MatrixSpec>>& RecipeKeys::matrix_keys() {
+  const auto rows = [this](auto& key, WithTerms<MatrixSpec>& matrix) {
+    key.text("name", matrix.spec.name, "name for messages; matrix_1, matrix_2, ... without it");
+    key.tables("terms", matrix.terms, term_keys(),
+               "its rows, one direction of one node or point each")
+        .required();
+    key.numbers("K", matrix.K, {}, "stiffness: the lower triangle, row by row [N/m, N, N m]");
+    key.numbers("M", matrix.M, {}, "mass: the lower triangle, row by row [kg, kg m, kg m2]");
+    key.one_of({"K", "M"});
+    key.check([this](const Config& table, WithTerms<MatrixSpec>& m) {
+      const int number = next("matrix");
+      if (m.spec.name.empty()) m.spec.name = fmt::format("matrix_{}", number);
+      finish_terms(table, "matrix " + m.spec.name, m);
+      m.spec.is_mass = table.has("M");
+      const std::vector<double>& lower = m.spec.is_mass ? m.M : m.K;
+      const auto n = static_cast<Eigen::Index>(m.terms.size());
+      if (n == 0 || static_cast<Eigen::Index>(lower.size()) != n * (n + 1) / 2)
+        table.fail(m.spec.is_mass ? "M" : "K",
+                   fmt::format("found {} numbers for {} terms, expected {}: the lower "
+                               "triangle row by row",
+                               lower.size(), n, n * (n + 1) / 2));
+      Eigen::MatrixXd& values = m.spec.values;
+      values.resize(n, n);
+      size_t at = 0;
+      for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j <= i; ++j) values(i, j) = values(j, i) = lower[at++];
+    });
+  };
+  return keep<WithTerms<MatrixSpec>>("matrix", "stiffness or mass between DoFs, beside the cells",
+                                     rows);
 }
 
-void RecipeReader::straight_edges(Recipe& recipe) const {
-  bool hanging = mesh_.node_sets.contains(mesh::kHangingMidSideNodes);
-  for (const Config& table : config_.tables("straight_edges")) {
-    const std::string set = node_set(table);
-    recipe.straight_edges.push_back({set, where(table, "straight edges " + set)});
-    if (set == mesh::kHangingMidSideNodes) hanging = false;
-  }
-  if (hanging)
-    config_.fail("straight_edges",
-                 fmt::format("found none, the mesh has the node set \"{0}\": expected "
-                             "[[straight_edges]] with node_set = \"{0}\"",
-                             mesh::kHangingMidSideNodes));
+const keys::Keys<StraightEdgesSpec>& RecipeKeys::straight_edges_keys() {
+  const auto rows = [this](auto& key, StraightEdgesSpec& edges) {
+    key.text("node_set", edges.node_set, "a set of mid-side nodes of the mesh").required();
+    key.check([this](const Config& table, StraightEdgesSpec& e) {
+      names_.check_node_set(table, e.node_set);
+      e.where = where(table, "straight edges " + e.node_set);
+    });
+  };
+  return keep<StraightEdgesSpec>(
+      "straight_edges", "mid-side nodes that move with the mean of the two ends of their edge",
+      rows);
 }
 
-void RecipeReader::ties(Recipe& recipe) {
-  for (const char* kind : {"tie", "bolt"})
-    for (const Config& table : config_.tables(kind)) {
-      TieSpec spec;
-      spec.bolt = std::string_view(kind) == "bolt";
-      // A tie has no set, but a name for messages.
-      spec.name = spec.bolt ? new_set(table)
-                            : table.text_or("name", fmt::format("tie_{}", recipe.ties.size() + 1));
-      spec.where = where(table, fmt::format("{} {}", kind, spec.name));
-      spec.slave = surface(table, "slave");
-      spec.master = surface(table, "master");
-      if (spec.slave == spec.master)
+const keys::Keys<TieSpec>& RecipeKeys::tie_keys(bool bolt) {
+  TieSpec standard;
+  standard.bolt = bolt;
+  const char* meaning = bolt ? "a cut shank: a tie with one free relative displacement, its tension"
+                             : "a slave surface that follows a master surface, with other nodes";
+
+  const auto rows = [this, bolt](auto& key, TieSpec& tie) {
+    auto name = key.text("name", tie.name, bolt ? "name of its set" : "name for messages and heat");
+    if (bolt) name.required();
+    key.text("slave", tie.slave, "a surface of the mesh, which follows").required();
+    key.text("master", tie.master, "a surface of the mesh").required();
+    key.number("distance", tie.distance, Range::not_negative(),
+               "largest gap; a tenth of the mean slave face's size without it")
+        .in_length_unit();
+    if (bolt)
+      key.direction("direction", tie.direction, "direction from slave to master").required();
+    key.check([this](const Config& table, TieSpec& t) {
+      const int number = next("tie");
+      if (t.bolt) names_.add_set(table, t.name);
+      if (t.name.empty()) t.name = fmt::format("tie_{}", number);
+      names_.ties.insert(t.name);
+      t.where = where(table, fmt::format("{} {}", t.bolt ? "bolt" : "tie", t.name));
+      names_.check_surface(table, t.slave, "slave");
+      names_.check_surface(table, t.master, "master");
+      if (t.slave == t.master)
         table.fail("master", "found the slave surface, expected another one");
-      if (table.has("distance"))
-        spec.distance = metre_ * table.number("distance", Range::not_negative());
-      if (spec.bolt) spec.direction = unit_vector(table, "direction");
-      recipe.ties.push_back(spec);
-    }
+    });
+  };
+  return keep<TieSpec>(bolt ? "bolt" : "tie", meaning, rows, standard);
 }
 
 }  // namespace clatter::assembly

@@ -2,124 +2,167 @@
 // [[heat]].
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <set>
-
-#include "assembly/recipe/recipe_reader.hpp"
+#include "assembly/recipe/recipe_keys.hpp"
 
 namespace clatter::assembly {
+namespace {
 
-/// A number, or a list of them at the positions `at` along the direction `along`.
-/// @param offset added to each: from degrees Celsius to kelvin.
-Profile RecipeReader::profile(const Config& table, std::string_view key, Range range,
-                              double offset) const {
-  Profile profile;
-  if (!table.is_list(key)) {
-    profile.value = {offset + table.number(key, range)};
-    return profile;
+/// The row of a number or of a list of them at positions, and the rows of the positions.
+template <class Rows>
+keys::Row profile_row(Rows& key, const std::string& name, Profile& profile, Range range,
+                      const std::string& meaning) {
+  return key.one_or_more(name, profile.value, range, meaning + ", or a list of them at positions");
+}
+
+/// A row of a table of points in place of `names`.
+template <class Rows>
+void table_row(Rows& key, std::filesystem::path& path, const std::vector<std::string>& names,
+               std::string meaning) {
+  key.path("table", path, std::move(meaning));
+  for (const std::string& name : names) key.one_of({name, "table"});
+}
+
+template <class Rows>
+void position_rows(Rows& key, Profile& profile) {
+  key.direction("along", profile.direction, "direction of the positions").needs("at");
+  key.numbers("at", profile.at, {}, "ascending positions along it").needs("along").in_length_unit();
+}
+
+/// Gives each profile that is a list the positions, which belong to lists alone.
+void finish_profiles(const Config& table, const Profile& positions,
+                     const std::vector<std::pair<const char*, Profile*>>& profiles) {
+  const Profile at = positions;
+  bool any = false;
+  for (const auto& [key, profile] : profiles) {
+    profile->direction.setZero();
+    profile->at.clear();
+    if (!table.is_list(key)) continue;
+    any = true;
+    for (const char* needed : {"along", "at"})
+      if (!table.has(needed))
+        table.fail(needed, fmt::format("is missing, the list {} needs it", key));
+    if (at.at.size() != profile->value.size() || at.at.empty())
+      table.fail(key, fmt::format("found {} numbers for {} positions `at`, expected as many",
+                                  profile->value.size(), at.at.size()));
+    profile->direction = at.direction;
+    profile->at = at.at;
   }
-  profile.value = table.numbers(key);
-  profile.direction = unit_vector(table, "along");
-  profile.at = table.numbers("at");
-  if (profile.at.size() != profile.value.size() || profile.at.empty())
-    table.fail(key, fmt::format("found {} numbers for {} positions `at`, expected as many",
-                                profile.value.size(), profile.at.size()));
-  for (size_t k = 0; k < profile.at.size(); ++k) {
-    const double value = profile.value[k];
-    if (value < range.min || (range.open_min && value == range.min))
-      table.fail(key, fmt::format("found {:g}, expected {} {:g}", value,
-                                  range.open_min ? "above" : "at least", range.min));
-    profile.at[k] *= metre_;
-    if (k > 0 && !(profile.at[k] > profile.at[k - 1]))
+  if (!any && table.has("along")) table.fail("along", "needs a list of numbers at positions");
+  for (size_t k = 1; k < at.at.size(); ++k)
+    if (!(at.at[k] > at.at[k - 1]))
       table.fail("at", "found positions that do not ascend, expected ascending ones");
-    profile.value[k] += offset;
-  }
-  return profile;
 }
 
-HeatSpec::Source RecipeReader::heat_source(const Config& table) const {
-  HeatSpec::Source source;
-  source.regions = table.texts_or("regions", mesh_.regions);
-  const double power = table.number("power");
-  source.power.assign(mesh_.regions.size(), 0.0);
-  for (const std::string& name : source.regions)
-    source.power[static_cast<size_t>(region(table, "regions", name))] = power;
-  return source;
-}
+const Range kCelsius{-kZeroCelsius};
 
-/// A film by a table has the coefficient and the temperature of the fluid at each point, as
-/// programs of flow write them. Fits below the smallest coefficient of the table, beyond its
-/// points, are that coefficient.
-HeatSpec::Film RecipeReader::film(const Config& table, Recipe& recipe) const {
-  const Range celsius{-kZeroCelsius};
-  const std::string on = surface(table);
-  if (!table.has("table"))
-    return {on, profile(table, "coefficient", Range::positive(), 0.0),
-            profile(table, "temperature_c", celsius, kZeroCelsius)};
-  for (const char* key : {"coefficient", "temperature_c"})
-    if (table.has(key))
-      table.fail(key, fmt::format("table and {} exclude each other: the table has both columns "
-                                  "coefficient and temperature_c",
-                                  key));
+}  // namespace
+
+/// The coefficient and the temperature of the fluid at each point, as programs of flow write them.
+/// Fits below the smallest coefficient of the table, beyond its points, are that coefficient.
+void RecipeKeys::read_film(const Config& table, HeatSpec::Film& film) {
   const RowMatrix values = values_of_table(
-      table,
+      table, film.table,
       {{"coefficient", "W/(m2 K)", 0.0, true}, {"temperature_c", "degrees Celsius", -kZeroCelsius}},
-      on, recipe);
-  HeatSpec::Film film{on, {}, {}};
+      film.surface);
   film.coefficient.nodal = values.col(0);
   film.temperature.nodal = values.col(1).array() + kZeroCelsius;
-  return film;
 }
 
-HeatSpec::Flux RecipeReader::flux(const Config& table, Recipe& recipe) const {
-  const std::string on = surface(table);
-  if (!table.has("table")) return {on, profile(table, "flux", {}, 0.0)};
-  if (table.has("flux"))
-    table.fail("flux", "table and flux exclude each other: the table has the column flux");
-  HeatSpec::Flux flux{on, {}};
-  flux.flux.nodal = values_of_table(table, {{"flux", "W/m2"}}, on, recipe).col(0);
-  return flux;
+const keys::Keys<HeatSpec::Film>& RecipeKeys::film_keys() {
+  const auto rows = [this](auto& key, HeatSpec::Film& film) {
+    key.text("surface", film.surface, "a surface of the mesh").required();
+    profile_row(key, "coefficient", film.coefficient, Range::positive(),
+                "heat transfer coefficient")
+        .shown_in("W/(m2 K)");
+    profile_row(key, "temperature_c", film.temperature, kCelsius, "temperature of the fluid");
+    position_rows(key, film.coefficient);
+    table_row(key, film.table, {"coefficient", "temperature_c"},
+              "CSV file of points with the columns coefficient and temperature_c; interpolated");
+    key.check([this](const Config& table, HeatSpec::Film& f) {
+      names_.check_surface(table, f.surface);
+      finish_profiles(table, f.coefficient,
+                      {{"coefficient", &f.coefficient}, {"temperature_c", &f.temperature}});
+      if (!f.table.empty()) read_film(table, f);
+    });
+  };
+  return keep<HeatSpec::Film>("film", "a fluid at a surface", rows);
 }
 
-HeatSpec RecipeReader::heat(const Config& table, Recipe& recipe) const {
-  const Range celsius{-kZeroCelsius};
-  HeatSpec spec;
-  spec.name = table.text("name");
-  if (spec.name.empty() || spec.name.find('/') != std::string::npos)
-    table.fail("name", fmt::format("found \"{}\", expected a name without '/'", spec.name));
-  spec.where = where(table, "heat " + spec.name);
-  for (const Config& one : table.tables("film")) spec.films.push_back(film(one, recipe));
-  for (const Config& one : table.tables("flux")) spec.fluxes.push_back(flux(one, recipe));
-  for (const Config& one : table.tables("fixed"))
-    spec.fixed.push_back(
-        {selection(one, "heat " + spec.name), kZeroCelsius + one.number("temperature_c", celsius)});
-  for (const Config& one : table.tables("source")) spec.sources.push_back(heat_source(one));
-  std::vector<std::string> ties;
-  for (const TieSpec& tie : recipe.ties) ties.push_back(tie.name);
-  for (const Config& one : table.tables("contact")) {
-    const std::string tie = one.text("tie");
-    if (std::find(ties.begin(), ties.end(), tie) == ties.end()) fail_unknown(one, "tie", tie, ties);
-    for (const HeatSpec::Contact& other : spec.contacts)
-      if (other.tie == tie)
-        one.fail("tie", fmt::format("found \"{}\" twice, expected one conductance", tie));
-    spec.contacts.push_back({tie, one.number("conductance", Range::positive())});
-  }
-  return spec;
+const keys::Keys<HeatSpec::Flux>& RecipeKeys::flux_keys() {
+  const auto rows = [this](auto& key, HeatSpec::Flux& flux) {
+    key.text("surface", flux.surface, "a surface of the mesh").required();
+    profile_row(key, "flux", flux.flux, {}, "heat flux into the part").shown_in("W/m2");
+    position_rows(key, flux.flux);
+    table_row(key, flux.table, {"flux"}, "CSV file of points with the column flux; interpolated");
+    key.check([this](const Config& table, HeatSpec::Flux& f) {
+      names_.check_surface(table, f.surface);
+      finish_profiles(table, f.flux, {{"flux", &f.flux}});
+      if (!f.table.empty())
+        f.flux.nodal = values_of_table(table, f.table, {{"flux", "W/m2"}}, f.surface).col(0);
+    });
+  };
+  return keep<HeatSpec::Flux>("flux", "heat through a surface", rows);
 }
 
-void RecipeReader::heats(Recipe& recipe) const {
-  std::set<std::string> names;
-  for (const Config& table : config_.tables("heat")) {
-    recipe.heats.push_back(heat(table, recipe));
-    if (!names.insert(recipe.heats.back().name).second)
-      table.fail("name", fmt::format("found \"{}\" twice, expected different names",
-                                     recipe.heats.back().name));
-    for (size_t r = 0; r < recipe.materials.size(); ++r)
-      if (recipe.materials[r].conductivity.isZero(0.0))
-        table.fail("name", fmt::format("found no conductivity of the material of region \"{}\", "
-                                       "expected one [W/(m K)]",
-                                       mesh_.regions[r]));
-  }
+const keys::Keys<HeatSpec::Fixed>& RecipeKeys::fixed_keys() {
+  const auto rows = [this](auto& key, HeatSpec::Fixed& fixed) {
+    select_by(key, fixed.selection, {"surface", "node_set"});
+    key.number("temperature_c", fixed.temperature, kCelsius, "temperature of the nodes").required();
+    key.check(
+        [this](const Config& table, HeatSpec::Fixed& f) { names_.check(table, "", f.selection); });
+  };
+  return keep<HeatSpec::Fixed>("fixed", "a given temperature", rows);
+}
+
+const keys::Keys<HeatSpec::Source>& RecipeKeys::source_keys() {
+  const auto rows = [this](auto& key, HeatSpec::Source& source) {
+    key.texts("regions", source.regions, "names of regions of the mesh; all without it");
+    key.number("power", source.value, {}, "heat per volume").required().shown_in("W/m3");
+    key.check([this](const Config& table, HeatSpec::Source& s) {
+      if (!table.has("regions")) s.regions = names_.mesh.regions;
+      s.power.assign(names_.mesh.regions.size(), 0.0);
+      for (const std::string& name : s.regions)
+        s.power[static_cast<size_t>(names_.region(table, "regions", name))] = s.value;
+    });
+  };
+  return keep<HeatSpec::Source>("source", "heat that regions generate", rows);
+}
+
+const keys::Keys<HeatSpec::Contact>& RecipeKeys::conductance_keys() {
+  const auto rows = [this](auto& key, HeatSpec::Contact& contact) {
+    key.text("tie", contact.tie, "name of the [[tie]] or [[bolt]]").required().distinct();
+    key.number("conductance", contact.conductance, Range::positive(),
+               "heat transfer coefficient of the joint")
+        .required()
+        .shown_in("W/(m2 K)");
+    key.check([this](const Config& table, HeatSpec::Contact& c) {
+      check_known(table, "tie", c.tie, names_.ties);
+    });
+  };
+  return keep<HeatSpec::Contact>("contact", "a tie or bolt whose sides have different temperatures",
+                                 rows);
+}
+
+const keys::Keys<HeatSpec>& RecipeKeys::heat_keys() {
+  const auto rows = [this](auto& key, HeatSpec& heat) {
+    key.name("name", heat.name, "name for loads").required().distinct();
+    key.tables("film", heat.films, film_keys());
+    key.tables("flux", heat.fluxes, flux_keys());
+    key.tables("fixed", heat.fixed, fixed_keys());
+    key.tables("source", heat.sources, source_keys());
+    key.tables("contact", heat.contacts, conductance_keys());
+    key.check([this](const Config& table, HeatSpec& h) {
+      h.where = where(table, "heat " + h.name);
+      for (HeatSpec::Fixed& fixed : h.fixed) fixed.selection.where += ": heat " + h.name;
+      names_.heats.insert(h.name);
+      for (size_t r = 0; r < materials_.size(); ++r)
+        if (materials_[r].conductivity.isZero(0.0))
+          table.fail("name", fmt::format("found no conductivity of the material of region \"{}\", "
+                                         "expected one [W/(m K)]",
+                                         names_.mesh.regions[r]));
+    });
+  };
+  return keep<HeatSpec>("heat", "a steady temperature field", rows);
 }
 
 }  // namespace clatter::assembly

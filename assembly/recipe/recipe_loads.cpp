@@ -1,97 +1,68 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // [[load]], [[case]].
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numeric>
-#include <set>
-#include <utility>
 
-#include "assembly/recipe/recipe_reader.hpp"
+#include "assembly/recipe/recipe_keys.hpp"
 #include "core/base/log.hpp"
 #include "core/base/units.hpp"
 
 namespace clatter::assembly {
+namespace {
 
-void RecipeReader::force_load(const Config& table, LoadSpec& spec) const {
-  spec.kind = LoadSpec::Kind::kForce;
-  spec.set = known_set(table, "set");
-  if (table.has("force")) spec.force = vector(table, "force");
-  if (table.has("moment")) spec.moment = vector(table, "moment");
-  if (spec.force.isZero(0.0) && spec.moment.isZero(0.0))
-    table.fail("force", "found neither a force [N] nor a moment [N m], expected one");
-  spec.unit = table.text_or("unit", "1");
-}
+using Kind = LoadSpec::Kind;
 
-void RecipeReader::displacement_load(const Config& table, LoadSpec& spec) const {
-  spec.kind = LoadSpec::Kind::kDisplacement;
-  spec.selection = selection(table, "load " + spec.name, true);
-  spec.directions = directions(table, "directions", {}, spec.selection.point.empty() ? 3 : 6);
-  if (spec.directions.empty())
-    table.fail("directions", "found nothing, expected the directions that move");
-  spec.axes = axes(table);
+void finish_displacement(const Config& table, LoadTable& load) {
+  LoadSpec& spec = load.spec;
+  check_directions(table, spec.selection, spec.directions);
   const bool turns = spec.directions.back() >= 3;
   for (const int d : spec.directions)
     if ((d >= 3) != turns)
       table.fail("directions", "found displacements and rotations, expected one of them");
-  spec.value = (turns ? 1.0 : metre_) * table.number("value");
-  spec.unit = table.text_or("unit", "1");
+  spec.value = (turns ? 1.0 : table.metre()) * *load.value;
 }
 
-/// The name of a field of the mesh with `columns` values a node.
-std::string RecipeReader::field(const Config& table, Eigen::Index columns) const {
-  const std::string name = table.text("field");
-  if (!mesh_.fields.contains(name)) fail_unknown(table, "field", name, names_of(mesh_.fields));
-  const RowMatrix& values = mesh_.fields.at(name);
-  if (values.rows() != mesh_.nodes.rows() || values.cols() != columns)
-    table.fail("field", fmt::format("found {} x {} values, expected {} x {}", values.rows(),
-                                    values.cols(), mesh_.nodes.rows(), columns));
-  return name;
-}
-
-/// Nodes of several regions get the mean of their rises.
-Eigen::VectorXd RecipeReader::rise_of_regions(const Config& table) const {
-  const Config given = table.table("regions");
-  std::vector<double> rise(mesh_.regions.size(), 0.0);
-  for (const std::string& name : given.keys())
-    rise[static_cast<size_t>(region(given, name, name))] = given.number(name);
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(mesh_.nodes.rows()), regions = sum;
-  for (size_t r = 0; r < rise.size(); ++r) {
-    std::vector<bool> inside(static_cast<size_t>(sum.size()), false);
-    for (const mesh::CellBlock& block : mesh_.cells)
-      if (static_cast<size_t>(block.region) == r)
-        for (const int32_t node : block.nodes.reshaped()) inside[static_cast<size_t>(node)] = true;
-    for (Eigen::Index a = 0; a < sum.size(); ++a)
-      if (inside[static_cast<size_t>(a)]) sum(a) += rise[r], regions(a) += 1.0;
+/// The unit of a load case that names none.
+std::string unit_of(const LoadSpec& spec) {
+  switch (spec.kind) {
+    case Kind::kPressure:
+      return spec.pressure.size() > 0 ? "1" : "Pa";
+    case Kind::kResultant:
+      return "N";
+    case Kind::kGravity:
+      return "m/s2";
+    case Kind::kCentrifugal:
+      return "rad2/s2";
+    default:
+      return "1";
   }
-  return sum.cwiseQuotient(regions);
 }
 
-/// The columns of the file of key `table` at the nodes of the mesh, or of the surface `on` (n_nodes
-/// rows, others 0); says how far these nodes are from the points, and how far the points are from
-/// linear fits. A table that is farther from the part than the part is large is refused.
-RowMatrix RecipeReader::values_of_table(const Config& table,
-                                        const std::vector<TableColumn>& columns,
-                                        const std::string& on, Recipe& recipe) const {
+}  // namespace
+
+RowMatrix RecipeKeys::values_of_table(const Config& table, const std::filesystem::path& path,
+                                      const std::vector<TableColumn>& columns,
+                                      const std::string& on) {
   constexpr double kCoarse = 0.05;  // of the table's range: an error of 5 % of the load's variation
   constexpr double kConstant = 1e-9;  // of its values: a smaller range is rounding
-  const std::filesystem::path path = table.path("table");
-  recipe.files.push_back(path);
-  const PointTable points = read_point_table(path, metre_, columns);
-  std::vector<int32_t> nodes(static_cast<size_t>(mesh_.nodes.rows()));
+  const mesh::Mesh& mesh = names_.mesh;
+  files_.push_back(path);
+  const PointTable points = read_point_table(path, table.metre(), columns);
+  std::vector<int32_t> nodes(static_cast<size_t>(mesh.nodes.rows()));
   if (on.empty())
     std::iota(nodes.begin(), nodes.end(), 0);
   else
-    nodes = mesh::nodes_of(mesh_.surface(on));
-  const TableValues found = values_at(points, mesh_.nodes(nodes, Eigen::all));
-  const double size = (mesh_.nodes.colwise().maxCoeff() - mesh_.nodes.colwise().minCoeff()).norm();
+    nodes = mesh::nodes_of(mesh.surface(on));
+  const TableValues found = values_at(points, mesh.nodes(nodes, Eigen::all));
+  const double size = (mesh.nodes.colwise().maxCoeff() - mesh.nodes.colwise().minCoeff()).norm();
   if (found.farthest > size)
     table.fail("table",
                fmt::format("a node lies {:.3g} m from the nearest point of {}, farther than the "
                            "part is large, {:.3g} m: are its positions in another length_unit?",
                            found.farthest, path.filename().string(), size));
-  RowMatrix values = RowMatrix::Zero(mesh_.nodes.rows(), points.values.cols());
+  RowMatrix values = RowMatrix::Zero(mesh.nodes.rows(), points.values.cols());
   values(nodes, Eigen::all) = found.values;
   for (size_t k = 0; k < columns.size(); ++k) {
     const auto c = static_cast<Eigen::Index>(k);
@@ -112,147 +83,233 @@ RowMatrix RecipeReader::values_of_table(const Config& table,
   return values;
 }
 
+/// Nodes of several regions get the mean of their rises.
+Eigen::VectorXd RecipeKeys::rise_of_regions(const Config& table, const LoadTable& load) const {
+  std::vector<double> rise(names_.mesh.regions.size(), 0.0);
+  for (const auto& [name, value] : load.rises)
+    rise[static_cast<size_t>(names_.region(table.table("regions"), name, name))] = value;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(names_.mesh.nodes.rows()), regions = sum;
+  for (size_t r = 0; r < rise.size(); ++r) {
+    std::vector<bool> inside(static_cast<size_t>(sum.size()), false);
+    for (const mesh::CellBlock& block : names_.mesh.cells)
+      if (static_cast<size_t>(block.region) == r)
+        for (const int32_t node : block.nodes.reshaped()) inside[static_cast<size_t>(node)] = true;
+    for (Eigen::Index a = 0; a < sum.size(); ++a)
+      if (inside[static_cast<size_t>(a)]) sum(a) += rise[r], regions(a) += 1.0;
+  }
+  return sum.cwiseQuotient(regions);
+}
+
+/// A field of the mesh has `columns` values a node.
+void RecipeKeys::check_field(const Config& table, const std::string& name,
+                             Eigen::Index columns) const {
+  check_known(table, "field", name, names_of(names_.mesh.fields));
+  const RowMatrix& values = names_.mesh.fields.at(name);
+  if (values.rows() != names_.mesh.nodes.rows() || values.cols() != columns)
+    table.fail("field", fmt::format("found {} x {} values, expected {} x {}", values.rows(),
+                                    values.cols(), names_.mesh.nodes.rows(), columns));
+}
+
 /// A rise everywhere or by regions, or temperatures above a reference: of a field of the mesh, a
 /// [[heat]], or a table.
-void RecipeReader::temperature_load(const Config& table, LoadSpec& spec, Recipe& recipe) const {
-  spec.kind = LoadSpec::Kind::kTemperature;
-  const std::vector<std::string> sources = {"value", "regions", "field", "heat", "table"};
-  std::string source;
-  for (const std::string& key : sources) {
-    if (!table.has(key)) continue;
-    if (!source.empty())
-      table.fail(key, fmt::format("found {} as well, expected one of: {}", source,
-                                  fmt::join(sources, ", ")));
-    source = key;
-  }
-  const auto reference = [&] {
-    return kZeroCelsius + table.number_or("reference_c", 20.0, {-kZeroCelsius});
-  };
-  if (source == "regions") {
-    spec.rise = rise_of_regions(table);
-    spec.unit = table.text_or("unit", "1");
-  } else if (source == "heat") {
-    spec.heat = table.text("heat");
-    std::vector<std::string> names;
-    for (const HeatSpec& heat : recipe.heats) names.push_back(heat.name);
-    if (std::find(names.begin(), names.end(), spec.heat) == names.end())
-      fail_unknown(table, "heat", spec.heat, names);
-    spec.value = reference();
-    spec.unit = table.text_or("unit", "1");
-  } else if (source == "table") {
+void RecipeKeys::finish_temperature(const Config& table, LoadTable& load) {
+  LoadSpec& spec = load.spec;
+  if (std::none_of(materials_.begin(), materials_.end(),
+                   [](const fe::Material& one) { return !one.expansion.isZero(0.0); }))
+    table.fail("kind", "found temperature, no material has an expansion");
+  if (!load.rises.empty()) {
+    spec.rise = rise_of_regions(table, load);
+  } else if (!spec.heat.empty()) {
+    check_known(table, "heat", spec.heat, names_.heats);
+    spec.value = load.reference_temperature;
+  } else if (!load.table.empty()) {
     const std::vector<TableColumn> columns = {{"temperature_c", "degrees Celsius", -kZeroCelsius}};
-    spec.rise = values_of_table(table, columns, "", recipe).array() + kZeroCelsius - reference();
-    spec.unit = table.text_or("unit", "1");
-  } else if (source == "field") {
-    spec.field = field(table, 1);
-    spec.value = table.number_or("reference", 0.0);
-    spec.unit = table.text_or("unit", "1");
+    spec.rise = values_of_table(table, load.table, columns, "").array() + kZeroCelsius -
+                load.reference_temperature;
+  } else if (!spec.field.empty()) {
+    check_field(table, spec.field, 1);
+    spec.value = load.reference;
   } else {
-    spec.value = table.number_or("value", 1.0);
-    spec.unit = table.text_or("unit", spec.value == 1.0 ? "K" : "1");
+    spec.value = load.value.value_or(1.0);
+    if (spec.unit.empty() && spec.value == 1.0) spec.unit = "K";
   }
 }
 
-/// 1 (rad/s)^2 about an axis, of all regions and point masses or of some regions.
-void RecipeReader::centrifugal_load(const Config& table, LoadSpec& spec) const {
-  spec.kind = LoadSpec::Kind::kCentrifugal;
-  spec.axis.direction = unit_vector(table, "axis");
-  spec.axis.point = point(table, "axis_point");
-  spec.unit = "rad2/s2";
-  for (const std::string& name : table.texts_or("regions", {}))
-    spec.rotating.push_back(region(table, "regions", name));
-}
-
-LoadSpec RecipeReader::load(const Config& table, Recipe& recipe) const {
-  LoadSpec spec;
-  spec.name = table.text("name");
-  if (spec.name.empty() || spec.name.find('/') != std::string::npos)
-    table.fail("name", fmt::format("found \"{}\", expected a name without '/'", spec.name));
+void RecipeKeys::finish_load(const Config& table, LoadTable& load) {
+  LoadSpec& spec = load.spec;
   spec.where = where(table, "load " + spec.name);
-  const std::string kind =
-      table.choice("kind", {"pressure", "resultant", "force", "gravity", "acceleration",
-                            "centrifugal", "displacement", "nodal", "temperature"});
-  if (kind == "pressure") {
-    spec.surface = surface(table);
-    spec.unit = "Pa";
-    if (table.has("table")) {
-      spec.pressure = values_of_table(table, {{"pressure", "Pa"}}, spec.surface, recipe).col(0);
-      spec.unit = table.text_or("unit", "1");
-    }
-  } else if (kind == "resultant") {
-    spec.kind = LoadSpec::Kind::kResultant;
-    spec.surface = surface(table);
-    spec.force = table.number_or("total", 1.0) * unit_vector(table, "direction");
-    spec.unit = table.text_or("unit", "N");
-  } else if (kind == "force") {
-    force_load(table, spec);
-  } else if (kind == "centrifugal") {
-    centrifugal_load(table, spec);
-  } else if (kind == "displacement") {
-    displacement_load(table, spec);
-  } else if (kind == "temperature") {
-    temperature_load(table, spec, recipe);
-  } else if (kind == "nodal") {
-    spec.kind = LoadSpec::Kind::kNodal;
-    spec.field = field(table, 3);
-    spec.value = table.number_or("scale", 1.0);
-    spec.unit = table.text_or("unit", "1");
-  } else if (table.has("field")) {
-    if (table.has("direction"))
-      table.fail("field", "direction and field exclude each other: a field has its directions");
-    spec.kind = LoadSpec::Kind::kAcceleration;
-    spec.field = field(table, 3);
-    spec.value = table.number_or("scale", 1.0);
-    spec.unit = table.text_or("unit", "1");
-  } else {
-    spec.kind = LoadSpec::Kind::kGravity;
-    spec.force = unit_vector(table, "direction");
-    spec.unit = "m/s2";
+  names_.loads.insert(spec.name);
+  names_.check(table, "load " + spec.name, spec.selection);
+  switch (spec.kind) {
+    case Kind::kPressure:
+      spec.surface = spec.selection.surface;
+      if (!load.table.empty())
+        spec.pressure =
+            values_of_table(table, load.table, {{"pressure", "Pa"}}, spec.surface).col(0);
+      break;
+    case Kind::kResultant:
+      spec.surface = spec.selection.surface;
+      spec.force = load.total * *load.direction;
+      break;
+    case Kind::kForce:
+      check_known(table, "set", spec.set, names_.sets);
+      if (spec.force.isZero(0.0) && spec.moment.isZero(0.0))
+        table.fail("force", "give a force or a moment other than 0");
+      break;
+    case Kind::kGravity:
+      if (!spec.field.empty()) {
+        spec.kind = Kind::kAcceleration;
+        check_field(table, spec.field, 3);
+        spec.value = load.scale;
+      } else if (load.direction) {
+        spec.force = *load.direction;
+      } else {
+        table.fail("direction", "is missing, an acceleration needs it, or field");
+      }
+      break;
+    case Kind::kAcceleration:  // of no name: what kGravity with a field becomes
+      break;
+    case Kind::kCentrifugal:
+      for (const std::string& name : load.regions)
+        spec.rotating.push_back(names_.region(table, "regions", name));
+      break;
+    case Kind::kDisplacement:
+      if (spec.selection.surface.empty() && spec.selection.node_set.empty() &&
+          spec.selection.point.empty())
+        table.fail("surface", "give surface, node_set or point");
+      finish_displacement(table, load);
+      spec.axes = names_.axes(table, load.system);
+      break;
+    case Kind::kNodal:
+      check_field(table, spec.field, 3);
+      spec.value = load.scale;
+      break;
+    case Kind::kTemperature:
+      finish_temperature(table, load);
+      break;
   }
-  return spec;
+  if (spec.unit.empty()) spec.unit = unit_of(spec);
 }
 
-namespace {
-
-bool expands(const std::vector<fe::Material>& materials) {
-  return std::any_of(materials.begin(), materials.end(),
-                     [](const fe::Material& material) { return !material.expansion.isZero(0.0); });
+const keys::Keys<LoadTable>& RecipeKeys::load_keys() {
+  const auto rows = [this](auto& key, LoadTable& load) {
+    LoadSpec& spec = load.spec;
+    key.name("name", spec.name, "name of the load case").required().distinct();
+    key.choice("kind", spec.kind,
+               {{"pressure", Kind::kPressure},
+                {"resultant", Kind::kResultant},
+                {"force", Kind::kForce},
+                {"gravity", Kind::kGravity},
+                {"acceleration", Kind::kGravity},
+                {"centrifugal", Kind::kCentrifugal},
+                {"displacement", Kind::kDisplacement},
+                {"nodal", Kind::kNodal},
+                {"temperature", Kind::kTemperature}},
+               "1 Pa on a surface, a force spread over it, force and moment on a set, "
+               "1 m/s2, 1 rad2/s2 about an axis, a prescribed displacement, forces of a "
+               "field of the mesh, or thermal strain");
+    key.text("surface", spec.selection.surface, "a surface of the mesh")
+        .needs("kind", {"pressure", "resultant", "displacement"})
+        .required_with("kind", {"pressure", "resultant"});
+    key.text("node_set", spec.selection.node_set, "or a set of nodes of the mesh")
+        .needs("kind", "displacement")
+        .excludes("surface");
+    key.text("point", spec.selection.point, "or the name of a [[point]]")
+        .needs("kind", "displacement")
+        .excludes("surface")
+        .excludes("node_set");
+    key.direction("direction", load.direction, "direction of the force or acceleration")
+        .needs("kind", {"resultant", "gravity"})
+        .required_with("kind", "resultant");
+    key.number("total", load.total, {}, "force of one unit")
+        .needs("kind", "resultant")
+        .shown_in("N");
+    key.text("set", spec.set, "name of a set or point")
+        .needs("kind", "force")
+        .required_with("kind", "force");
+    key.vector("force", spec.force, {}, "force on it").needs("kind", "force").shown_in("N");
+    key.vector("moment", spec.moment, {}, "moment on it").needs("kind", "force").shown_in("N m");
+    key.direction("axis", spec.axis.direction, "direction of the axis of rotation")
+        .needs("kind", "centrifugal")
+        .required_with("kind", "centrifugal");
+    key.vector("axis_point", spec.axis.point, {}, "a point of the axis")
+        .needs("kind", "centrifugal")
+        .required_with("kind", "centrifugal")
+        .in_length_unit();
+    directions(key, spec.directions, "directions that are displaced, or in which a point turns")
+        .needs("kind", "displacement")
+        .required_with("kind", "displacement");
+    key.text("system", load.system, "name of a [system] with the directions")
+        .needs("kind", "displacement");
+    const char* source = "give one source of temperatures";
+    key.number("value", load.value, {},
+               "the displacement [length_unit] or rotation [rad]; or the rise of all nodes "
+               "[K], 1 without it")
+        .needs("kind", {"displacement", "temperature"})
+        .required_with("kind", "displacement");
+    key.value("regions", load, "a list of names, or a table of numbers by name",
+              "names of those that rotate, all and the point masses without it; or the rise "
+              "of each region [K]",
+              [](const Config& table, const std::string& name, LoadTable& l) {
+                if (table.is_list(name)) {
+                  l.regions = table.texts(name);
+                  return;
+                }
+                const Config rises = table.table(name);
+                for (const std::string& one : rises.keys()) l.rises[one] = rises.number(one);
+              })
+        .types({keys::Type::kTexts, keys::Type::kByName})
+        .needs("kind", {"centrifugal", "temperature"})
+        .excludes("value", source);
+    key.text("field", spec.field,
+             "name of a field of the mesh: forces [N], accelerations [m/s2] or temperatures [K]")
+        .needs("kind", {"nodal", "gravity", "temperature"})
+        .excludes("direction", "a field has its directions")
+        .required_with("kind", "nodal")
+        .excludes("value", source)
+        .excludes("regions", source);
+    key.text("heat", spec.heat, "name of a [[heat]] with the temperatures")
+        .needs("kind", "temperature")
+        .excludes("value", source)
+        .excludes("regions", source)
+        .excludes("field", source);
+    key.path("table", load.table,
+             "CSV file of points with the column temperature_c, or pressure [Pa]; interpolated")
+        .needs("kind", {"pressure", "temperature"})
+        .excludes("value", source)
+        .excludes("regions", source)
+        .excludes("field", source)
+        .excludes("heat", source);
+    key.number("reference_c", load.reference_temperature, {-kZeroCelsius},
+               "temperature without strain, of heat and table")
+        .needs("kind", "temperature");
+    key.number("reference", load.reference, {}, "temperature of a field without strain")
+        .shown_in("K")
+        .needs("field");
+    key.number("scale", load.scale, {}, "factor of the forces or accelerations of the field")
+        .needs("kind", {"nodal", "gravity"})
+        .needs("field");
+    key.text("unit", spec.unit, "unit of the load case, in lists of results");
+    key.check([this](const Config& table, LoadTable& l) { finish_load(table, l); });
+  };
+  return keep<LoadTable>("load", "a unit load case", rows);
 }
 
-}  // namespace
-
-void RecipeReader::loads(Recipe& recipe) const {
-  std::set<std::string> names;
-  for (const Config& table : config_.tables("load")) {
-    recipe.loads.push_back(load(table, recipe));
-    if (recipe.loads.back().kind == LoadSpec::Kind::kTemperature && !expands(recipe.materials))
-      table.fail("kind", "found temperature, no material has an expansion");
-    if (!names.insert(recipe.loads.back().name).second)
-      table.fail("name", fmt::format("found \"{}\" twice, expected different names",
-                                     recipe.loads.back().name));
-  }
-}
-
-void RecipeReader::cases(Recipe& recipe) const {
-  std::vector<std::string> names;
-  for (const LoadSpec& load : recipe.loads) names.push_back(load.name);
-  for (const Config& table : config_.tables("case")) {
-    const std::string name = table.text("name");
-    if (name.empty() || name.find('/') != std::string::npos)
-      table.fail("name", fmt::format("found \"{}\", expected a name without '/'", name));
-    const bool taken = std::find(names.begin(), names.end(), name) != names.end();
-    if (taken || recipe.cases.contains(name))
-      table.fail("name", fmt::format("found \"{}\" twice, expected different names of loads and "
-                                     "cases",
-                                     name));
-    const Config factors = table.table("loads");
-    for (const std::string& load : factors.keys()) {
-      if (std::find(names.begin(), names.end(), load) == names.end())
-        fail_unknown(factors, load, load, names);
-      recipe.cases[name][load] = factors.number(load);
-    }
-    if (!recipe.cases.contains(name)) table.fail("loads", "found none, expected at least one");
-  }
+const keys::Keys<CaseTable>& RecipeKeys::case_keys() {
+  const auto rows = [this](auto& key, CaseTable& table) {
+    key.name("name", table.name, "name of the load case").required().distinct();
+    key.by_name("loads", table.factors, {}, "factor of each load").required();
+    key.check([this](const Config& config, CaseTable& c) {
+      if (names_.loads.contains(c.name))
+        config.fail("name", fmt::format("found \"{}\" twice, expected different names of "
+                                        "loads and cases",
+                                        c.name));
+      for (const auto& [load, factor] : c.factors)
+        check_known(config.table("loads"), load, load, names_.loads);
+      if (c.factors.empty()) config.fail("loads", "found none, expected at least one");
+    });
+  };
+  return keep<CaseTable>("case", "a sum of loads", rows);
 }
 
 }  // namespace clatter::assembly

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Modal damping of the `.rom.toml`.
-#include "core/base/config.hpp"
+#include <vector>
+
+#include "core/keys/keys.hpp"
 #include "core/rom/damping_table.hpp"
 
 namespace clatter::condense {
 
-/// Rows [[modal_damping]] hz = 500.0, ratio = 0.01 of a `.rom.toml`; empty when there are none.
-/// InputError at the row's line when frequencies do not ascend or a ratio is not below critical.
-rom::DampingTable read_modal_damping(const Config& config);
+/// A row [[modal_damping]].
+struct DampingRow {
+  double hz = 0.0, ratio = 0.0;
+};
+const keys::Keys<DampingRow>& damping_row_keys();
+
+/// The rows as a table. InputError at a row's line when frequencies do not ascend.
+rom::DampingTable damping_table(const Config& config, const std::vector<DampingRow>& rows);
 
 }  // namespace clatter::condense

@@ -204,27 +204,30 @@ double film_work_error(const rom::ReducedModel& before, const MatrixXd& motions_
 
 }  // namespace
 
-std::optional<InterfaceOptions> read_interface_options(const Config& config,
-                                                       const std::vector<std::string>& boundary) {
-  const std::optional<Config> table = config.find_table("interface");
-  if (!table) return std::nullopt;
-  InterfaceOptions options;
-  options.sets = table->texts_or("sets", boundary);
-  if (options.sets.empty()) table->fail("sets", "found no set, expected one or more names");
+const keys::Keys<InterfaceOptions>& interface_keys() {
+  static const keys::Keys<InterfaceOptions> keys(
+      "interface", "a second reduction: modes instead of coordinates of the boundary",
+      [](auto& key, InterfaceOptions& options) {
+        key.texts("sets", options.sets,
+                  "names of sets of the boundary whose coordinates go; all without it");
+        key.integer("modes", options.modes, Range::between(1.0, 1e6), "elastic modes, this many");
+        key.number("fmax_hz", options.fmax_hz, Range::positive(), "or all below this frequency")
+            .needs("weight", "mass", "modes by area have no frequency");
+        key.choice("weight", options.by_area, {{"mass", false}, {"area", true}},
+                   "by which the modes are orthogonal: mass, or the areas of the patches");
+        key.one_of({"modes", "fmax_hz"});
+      });
+  return keys;
+}
+
+void choose_sets(const Config& table, const std::vector<std::string>& boundary,
+                 InterfaceOptions& options) {
+  if (!table.has("sets")) options.sets = boundary;
+  if (options.sets.empty()) table.fail("sets", "found no set, expected one or more names");
   for (const std::string& name : options.sets)
     if (std::find(boundary.begin(), boundary.end(), name) == boundary.end())
-      table->fail("sets", fmt::format("found \"{}\", expected sets of the boundary: {}", name,
-                                      fmt::join(boundary, ", ")));
-  if (table->has("modes")) options.modes = static_cast<int>(table->integer("modes", {1.0, 1e6}));
-  if (table->has("fmax_hz")) options.fmax_hz = table->number("fmax_hz", Range::positive());
-  if ((options.modes > 0) == (options.fmax_hz > 0.0))
-    table->fail("modes", "found both or neither of modes and fmax_hz, expected one of them");
-  options.by_area = table->choice("weight", {"mass", "area"}) == "area";
-  if (options.by_area && options.fmax_hz > 0.0)
-    table->fail("fmax_hz",
-                "found with weight \"area\", whose modes have no frequency, expected "
-                "modes");
-  return options;
+      table.fail("sets", fmt::format("found \"{}\", expected sets of the boundary: {}", name,
+                                     fmt::join(boundary, ", ")));
 }
 
 ReducedInterface reduce_interface(const rom::ReducedModel& model, const InterfaceOptions& options,

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/config.hpp"
+#include "core/keys/keys.hpp"
 #include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
@@ -18,11 +18,11 @@ struct InterfaceOptions {
   bool by_area = false;           // weight = "area": patch areas instead of M_ss
 };
 
-/// Reads [interface] sets (default: the entire boundary), modes or fmax_hz, weight = "mass" or
-/// "area"; nothing when the table is absent. InputError for a set that is not in `boundary`, both
-/// or neither of modes and fmax_hz, and fmax_hz with weight "area".
-std::optional<InterfaceOptions> read_interface_options(const Config& config,
-                                                       const std::vector<std::string>& boundary);
+const keys::Keys<InterfaceOptions>& interface_keys();
+
+/// Without sets those of the boundary. InputError for a set that is not in it.
+void choose_sets(const Config& table, const std::vector<std::string>& boundary,
+                 InterfaceOptions& options);
 
 struct InterfaceReport {
   int coordinates = 0;             // boundary coordinates that became modes

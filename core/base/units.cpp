@@ -7,6 +7,7 @@
 #include <array>
 
 #include "core/base/error.hpp"
+#include "core/base/unit_names.hpp"
 
 namespace clatter {
 namespace {

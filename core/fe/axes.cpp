@@ -11,18 +11,6 @@ namespace {
 constexpr double kParallel = 1e-6;  // sine of the smallest angle between x and z
 constexpr double kOnAxis = 1e-12;   // of the distance from the origin: angle undefined
 
-Eigen::Vector3d vector_or(const Config& table, std::string_view key, const Eigen::Vector3d& other) {
-  if (!table.has(key)) return other;
-  return Eigen::Vector3d(table.numbers(key, 3).data());
-}
-
-Eigen::Vector3d direction_or(const Config& table, std::string_view key,
-                             const Eigen::Vector3d& other) {
-  const Eigen::Vector3d v = vector_or(table, key, other);
-  if (!(v.norm() > 0.0)) table.fail(key, "found the zero vector, expected a direction");
-  return v.normalized();
-}
-
 }  // namespace
 
 Eigen::Matrix3d Axes::at(const Eigen::Vector3d& position) const {
@@ -45,21 +33,32 @@ Eigen::Matrix3d Axes::at(const Eigen::Vector3d& position) const {
   return frame * local;
 }
 
-Axes read_axes(const Config& table, double metre) {
-  Axes axes;
-  const std::string kind = table.choice("kind", {"rectangular", "cylindrical", "spherical"});
-  if (kind == "cylindrical") axes.kind = Axes::Kind::kCylindrical;
-  if (kind == "spherical") axes.kind = Axes::Kind::kSpherical;
-  axes.origin = metre * vector_or(table, "origin", Eigen::Vector3d::Zero());
-  const Eigen::Vector3d z = direction_or(table, "z", Eigen::Vector3d::UnitZ());
-  const Eigen::Vector3d fallback =
-      std::abs(z.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
-  const Eigen::Vector3d x = direction_or(table, "x", fallback);
-  const Eigen::Vector3d across = x - x.dot(z) * z;
-  if (across.norm() < kParallel)
-    table.fail("x", "found a direction parallel to z, expected a different one");
-  axes.frame << across.normalized(), z.cross(across.normalized()), z;
-  return axes;
+const keys::Keys<AxesTable>& axes_keys() {
+  static const keys::Keys<AxesTable> keys(
+      "system", "axes for directions", [](auto& key, AxesTable& table) {
+        key.choice("kind", table.axes.kind,
+                   {{"rectangular", Axes::Kind::kRectangular},
+                    {"cylindrical", Axes::Kind::kCylindrical},
+                    {"spherical", Axes::Kind::kSpherical}},
+                   "directions are x, y, z; radial, tangential, axial; or radial, meridian, "
+                   "latitude");
+        key.vector("origin", table.axes.origin, {}, "origin of the axes").in_length_unit();
+        key.direction("z", table.z, "third axis");
+        key.direction("x", table.x,
+                      "direction near the first axis; x, or y near a third axis along x, without "
+                      "it");
+        key.check([](const Config& config, AxesTable& t) {
+          const Eigen::Vector3d x = t.x ? *t.x
+                                    : std::abs(t.z.x()) < 0.9
+                                        ? Eigen::Vector3d::UnitX()
+                                        : Eigen::Vector3d(Eigen::Vector3d::UnitY());
+          const Eigen::Vector3d across = x - x.dot(t.z) * t.z;
+          if (across.norm() < kParallel)
+            config.fail("x", "found a direction parallel to z, expected a different one");
+          t.axes.frame << across.normalized(), t.z.cross(across.normalized()), t.z;
+        });
+      });
+  return keys;
 }
 
 }  // namespace clatter::fe

@@ -2,9 +2,9 @@
 #pragma once
 // Coordinate systems for directions: [system.NAME] of a part's fe.toml.
 #include <Eigen/Core>
-#include <string>
+#include <optional>
 
-#include "core/base/config.hpp"
+#include "core/keys/keys.hpp"
 
 namespace clatter::fe {
 
@@ -22,8 +22,15 @@ struct Axes {
   Eigen::Matrix3d at(const Eigen::Vector3d& position) const;
 };
 
-/// Reads `kind`, `origin` (in `metre` metres), `z` and `x`. InputError when x is parallel to z.
-Axes read_axes(const Config& table, double metre);
+/// The table [system.NAME], with the axes that follow from it.
+struct AxesTable {
+  Axes axes;
+  Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  std::optional<Eigen::Vector3d> x = std::nullopt;
+};
+
+/// Its keys; InputError when x is parallel to z.
+const keys::Keys<AxesTable>& axes_keys();
 
 /// An axis of rotation.
 struct RotationAxis {

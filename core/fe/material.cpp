@@ -2,7 +2,6 @@
 #include "core/fe/material.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <vector>
 
@@ -10,8 +9,6 @@
 
 namespace clatter::fe {
 namespace {
-
-constexpr double kGiga = 1e9;
 
 /// Pairs of directions of the six components.
 constexpr int kPair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
@@ -30,40 +27,19 @@ Elasticity stress_rotation(const Eigen::Matrix3d& R) {
   return Q;
 }
 
-/// A number or a list of them.
-std::vector<double> one_or_more(const Config& table, const std::string& key) {
-  return table.is_list(key) ? table.numbers(key) : std::vector<double>{table.number(key)};
-}
-
-/// Numbers of `key` in Pa or `key`_gpa in GPa.
-std::vector<double> pascals(const Config& table, const std::string& key) {
-  const std::string giga = key + "_gpa";
-  if (table.has(key) && table.has(giga))
-    table.fail(giga, fmt::format("found {} as well, expected one", key));
-  const bool in_pa = table.has(key);
-  std::vector<double> values = one_or_more(table, in_pa ? key : giga);
-  if (!in_pa)
-    for (double& value : values) value *= kGiga;
-  return values;
-}
-
 void require_count(const Config& table, std::string_view key, const std::vector<double>& values,
                    size_t expected) {
   if (values.size() != expected)
     table.fail(key, fmt::format("found {} numbers, expected {}", values.size(), expected));
 }
 
-Elasticity orthotropic(const Config& table, const std::vector<double>& E) {
+Elasticity orthotropic(const Config& table, const MaterialTable& m) {
+  const std::vector<double>&E = m.E, &nu = m.nu, &G = m.G;
   require_count(table, "E", E, 3);
-  const std::vector<double> nu = table.numbers("nu", 3);
-  const std::vector<double> G = pascals(table, "G");
+  require_count(table, "nu", nu, 3);
   require_count(table, "G", G, 3);
   Elasticity compliance = Elasticity::Zero();
-  for (int i = 0; i < 3; ++i) {
-    if (!(E[static_cast<size_t>(i)] > 0.0 && G[static_cast<size_t>(i)] > 0.0))
-      table.fail("E", "expected moduli above zero");
-    compliance(i, i) = 1.0 / E[static_cast<size_t>(i)];
-  }
+  for (int i = 0; i < 3; ++i) compliance(i, i) = 1.0 / E[static_cast<size_t>(i)];
   compliance(0, 1) = compliance(1, 0) = -nu[0] / E[0];
   compliance(0, 2) = compliance(2, 0) = -nu[1] / E[0];
   compliance(1, 2) = compliance(2, 1) = -nu[2] / E[1];
@@ -77,8 +53,7 @@ Elasticity orthotropic(const Config& table, const std::vector<double>& E) {
   return factor.solve(Elasticity::Identity());
 }
 
-Elasticity anisotropic(const Config& table) {
-  const std::vector<double> upper = pascals(table, "C");
+Elasticity anisotropic(const Config& table, const std::vector<double>& upper) {
   require_count(table, "C", upper, 21);
   Elasticity C;
   size_t at = 0;
@@ -90,48 +65,36 @@ Elasticity anisotropic(const Config& table) {
   return C;
 }
 
-void read_elasticity(const Config& table, Material& material) {
-  if (table.has("C") || table.has("C_gpa")) {
-    material.elasticity = anisotropic(table);
-    return;
+/// Sets what follows from several keys.
+void finish(const Config& table, MaterialTable& m) {
+  Material& material = m.material;
+  if (!m.C.empty()) {
+    material.elasticity = anisotropic(table, m.C);
+  } else if (m.E.size() != 1) {
+    material.elasticity = orthotropic(table, m);
+  } else {
+    require_count(table, "nu", m.nu, 1);
+    material.youngs = m.E[0];
+    material.poisson = m.nu[0];
+    if (!(material.poisson > -1.0 && material.poisson < 0.5))
+      table.fail("nu", fmt::format("found {:g}, expected -1 < nu < 0.5", material.poisson));
   }
-  const std::vector<double> E = pascals(table, "E");
-  if (E.size() != 1) {
-    material.elasticity = orthotropic(table, E);
-    return;
-  }
-  material.youngs = E[0];
-  if (!(E[0] > 0.0)) table.fail("E", fmt::format("found {:g}, expected above 0", E[0]));
-  material.poisson = table.number("nu");
-  if (!(material.poisson > -1.0 && material.poisson < 0.5))
-    table.fail("nu", fmt::format("found {:g}, expected -1 < nu < 0.5", material.poisson));
+  const auto along_axes = [&](const char* key, const std::vector<double>& given, auto along) {
+    if (given.empty()) return;
+    if (given.size() != 1) require_count(table, key, given, 3);
+    for (int i = 0; i < 3; ++i) along(i) = given[given.size() == 1 ? 0 : static_cast<size_t>(i)];
+  };
+  along_axes("expansion", m.expansion, material.expansion.head<3>());
+  along_axes("conductivity", m.conductivity, material.conductivity.head<3>());
 }
 
-void read_expansion(const Config& table, Material& material) {
-  if (!table.has("expansion")) return;
-  const std::vector<double> a = one_or_more(table, "expansion");
-  if (a.size() != 1) require_count(table, "expansion", a, 3);
-  for (int i = 0; i < 3; ++i) material.expansion(i) = a[a.size() == 1 ? 0 : static_cast<size_t>(i)];
-}
-
-void read_conductivity(const Config& table, Material& material) {
-  if (!table.has("conductivity")) return;
-  const std::vector<double> k = one_or_more(table, "conductivity");
-  if (k.size() != 1) require_count(table, "conductivity", k, 3);
-  for (int i = 0; i < 3; ++i)
-    material.conductivity(i) = k[k.size() == 1 ? 0 : static_cast<size_t>(i)];
-  if (!(material.conductivity.minCoeff() > 0.0))
-    table.fail("conductivity",
-               fmt::format("found {:g}, expected above 0", material.conductivity.minCoeff()));
-}
-
-Integration choose(const Config& table, std::string_view key,
-                   std::initializer_list<std::string_view> known) {
-  const std::string name = table.choice(key, known);
-  return name == "full"      ? Integration::kFull
-         : name == "reduced" ? Integration::kReduced
-         : name == "fine"    ? Integration::kFine
-                             : Integration::kIncompatible;
+/// The row of a modulus in Pa or GPa.
+template <class Rows>
+void modulus(Rows& key, const std::string& name, std::vector<double>& at, bool& in_gpa, Range range,
+             const std::string& meaning) {
+  key.one_or_more(name, at, range, meaning).shown_in("Pa");
+  key.one_or_more(name + "_gpa", at, range, meaning);
+  key.in_either(name, name + "_gpa", in_gpa);
 }
 
 }  // namespace
@@ -165,28 +128,45 @@ Eigen::Matrix3d Material::conductivity_at(const Eigen::Vector3d& x) const {
   return R * conductivity.asDiagonal() * R.transpose();
 }
 
-Material read_material(const Config& table, const std::map<std::string, Axes>& systems) {
-  Material material;
-  read_elasticity(table, material);
-  material.density = table.number("rho", Range::positive());
-  read_expansion(table, material);
-  read_conductivity(table, material);
-  if (table.has("system")) {
-    const std::string name = table.text("system");
-    const auto found = systems.find(name);
-    if (found == systems.end()) {
-      std::vector<std::string> present;
-      for (const auto& entry : systems) present.push_back(entry.first);
-      table.fail("system",
-                 fmt::format("found \"{}\", expected one of: {}", name, fmt::join(present, ", ")));
-    }
-    material.axes = found->second;
-  }
-  material.integration = {choose(table, "hex8", {"incompatible", "full", "fine"}),
-                          choose(table, "hex20", {"full", "reduced"}),
-                          choose(table, "wedge6", {"full", "reduced", "fine"}),
-                          choose(table, "wedge15", {"full", "reduced"})};
-  return material;
+const keys::Keys<MaterialTable>& material_keys() {
+  static const keys::Keys<MaterialTable> keys(
+      "material", "linear elastic, isotropic, orthotropic or anisotropic",
+      [](auto& key, MaterialTable& m) {
+        modulus(key, "E", m.E, m.E_in_gpa, Range::positive(),
+                "Young's modulus, or E1, E2, E3 of an orthotropic material");
+        key.one_or_more("nu", m.nu, {},
+                        "Poisson's ratio, or nu12, nu13, nu23, where nu12/E1 = nu21/E2")
+            .required_with("E")
+            .required_with("E_gpa");
+        modulus(key, "G", m.G, m.G_in_gpa, Range::positive(),
+                "shear moduli G12, G13, G23 of an orthotropic material");
+        modulus(key, "C", m.C, m.C_in_gpa, {},
+                "21 constants of an anisotropic material: the upper triangle, row by row, for "
+                "stresses and strains 11 22 33 12 23 31");
+        key.one_of({"E", "E_gpa", "C", "C_gpa"});
+        key.number("rho", m.material.density, Range::positive(), "density")
+            .required()
+            .shown_in("kg/m3");
+        key.one_or_more("expansion", m.expansion, {},
+                        "thermal expansion, one number or three along the axes")
+            .shown_in("1/K");
+        key.one_or_more("conductivity", m.conductivity, Range::positive(),
+                        "thermal conductivity, one number or three along the axes")
+            .shown_in("W/(m K)");
+        key.text("system", m.system, "name of a [system] whose axes are the material's");
+        const char* meaning = "integration of the stiffness of these cells";
+        const auto full = std::pair{"full", Integration::kFull};
+        const auto reduced = std::pair{"reduced", Integration::kReduced};
+        const auto fine = std::pair{"fine", Integration::kFine};
+        IntegrationChoice& of = m.material.integration;
+        key.choice("hex8", of.hex8, {{"incompatible", Integration::kIncompatible}, full, fine},
+                   meaning);
+        key.choice("hex20", of.hex20, {full, reduced}, meaning);
+        key.choice("wedge6", of.wedge6, {full, reduced, fine}, meaning);
+        key.choice("wedge15", of.wedge15, {full, reduced}, meaning);
+        key.check(finish);
+      });
+  return keys;
 }
 
 }  // namespace clatter::fe

@@ -2,12 +2,12 @@
 #pragma once
 // Linear elastic materials: isotropic, orthotropic, anisotropic; thermal expansion, conductivity.
 #include <Eigen/Core>
-#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "core/base/config.hpp"
 #include "core/fe/axes.hpp"
+#include "core/keys/keys.hpp"
 
 namespace clatter::fe {
 
@@ -51,15 +51,17 @@ struct Material {
   Eigen::Matrix3d conductivity_at(const Eigen::Vector3d& x) const;
 };
 
-/// Reads `rho` [kg/m3] and the constants:
-///   isotropic    `E` [Pa] or `E_gpa` [GPa], `nu`
-///   orthotropic  `E` (or `E_gpa`) = [E1, E2, E3], `nu` = [nu12, nu13, nu23], `G` (or `G_gpa`) =
-///                [G12, G13, G23]; nu12/E1 = nu21/E2
-///   anisotropic  `C` (or `C_gpa`) = 21 numbers: upper triangle of Elasticity row by row
-/// then `expansion` [1/K] and `conductivity` [W/(m K)], one number or three along the axes,
-/// `system` (one of `systems`), and `hex8`, `hex20`, `wedge6`, `wedge15`. InputError unless rho > 0
-/// and the elasticity is positive definite (isotropic: E > 0, -1 < nu < 0.5): otherwise the elastic
-/// energy has no lower bound.
-Material read_material(const Config& table, const std::map<std::string, Axes>& systems = {});
+/// A table [material.NAME], and the material that follows from it. InputError unless the elasticity
+/// is positive definite (isotropic: E > 0, -1 < nu < 0.5): otherwise the elastic energy has no
+/// lower bound.
+struct MaterialTable {
+  Material material;            // without axes
+  std::vector<double> E, G, C;  // [Pa]
+  bool E_in_gpa = false, G_in_gpa = false, C_in_gpa = false;
+  std::vector<double> nu, expansion, conductivity;
+  std::string system;  // name of the axes; empty: the global frame
+};
+
+const keys::Keys<MaterialTable>& material_keys();
 
 }  // namespace clatter::fe

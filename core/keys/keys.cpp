@@ -11,6 +11,8 @@
 #include <cstring>
 #include <set>
 
+#include "core/base/unit_names.hpp"
+
 namespace clatter::keys {
 namespace {
 

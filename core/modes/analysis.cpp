@@ -96,18 +96,20 @@ void refuse_rounding(const std::string& name, const sparse::ModeSet& modes) {
 
 }  // namespace
 
-ModesOptions read_modes_options(const Config& config) {
-  ModesOptions options;
-  if (config.has("count")) options.count = static_cast<int>(config.integer("count", {1.0, 1e6}));
-  if (config.has("fmax_hz")) options.fmax_hz = config.number("fmax_hz", Range::positive());
-  if (options.count > 0 && options.fmax_hz > 0.0) {
-    config.fail("fmax_hz", "found both count and fmax_hz, expected one of them");
-  }
-  options.fixed = config.texts_or("fixed", {});
-  options.prove_count = config.flag_or("prove_count", true);
-  static_cast<sparse::EigenChoice&>(options) = sparse::read_eigen_choice(config);
-  config.finish();
-  return options;
+const keys::Keys<ModesOptions>& modes_keys() {
+  static const keys::Keys<ModesOptions> keys(
+      "modes.toml", "which modes of a part are computed; every key is optional",
+      [](auto& key, ModesOptions& options) {
+        key.integer("count", options.count, Range::between(1.0, 1e6),
+                    "the lowest modes, this many; 20 with neither count nor fmax_hz");
+        key.number("fmax_hz", options.fmax_hz, Range::positive(), "all modes below this frequency")
+            .excludes("count");
+        key.texts("fixed", options.fixed, "names of sets that are clamped in addition");
+        key.flag("prove_count", options.prove_count,
+                 "whether counts of eigenvalues prove that no mode is missing");
+        key.part(static_cast<sparse::EigenChoice&>(options), sparse::eigen_choice_keys());
+      });
+  return keys;
 }
 
 SparseMatrix principal_submatrix(const SparseMatrix& lower, const std::vector<int32_t>& kept) {

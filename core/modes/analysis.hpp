@@ -22,8 +22,8 @@ struct ModesOptions : sparse::EigenChoice {
   bool prove_count = true;
 };
 
-/// Reads the options; InputError for unknown keys and invalid values.
-ModesOptions read_modes_options(const Config& config);
+/// The keys of a modes.toml.
+const keys::Keys<ModesOptions>& modes_keys();
 
 /// Modes and the map to mode shapes. Shapes of many modes need twice the memory of the vectors, so
 /// they are computed in batches.

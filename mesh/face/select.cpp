@@ -130,41 +130,42 @@ std::string describe_nearest(std::vector<Candidate> found, const std::string& un
   return fmt::format("nearest: {}; ", fmt::join(named, "; "));
 }
 
-Eigen::Vector3d vector_of(const Config& config, std::string_view key) {
-  const std::vector<double> v = config.numbers(key, 3);
-  return {v[0], v[1], v[2]};
+const keys::Keys<BoxFilter>& box_keys() {
+  static const keys::Keys<BoxFilter> keys(
+      "box", "a box along the axes", [](auto& key, BoxFilter& box) {
+        key.vector("min", box.min, {}, "lower corner").required().shown_in("length_unit");
+        key.vector("max", box.max, {}, "upper corner").required().shown_in("length_unit");
+        key.check([](const Config& table, BoxFilter& b) {
+          if ((b.min.array() > b.max.array()).any()) table.fail("min", "expected min <= max");
+        });
+      });
+  return keys;
 }
 
-Eigen::Vector3d direction_of(const Config& config, std::string_view key) {
-  const Eigen::Vector3d v = vector_of(config, key);
-  if (v.norm() == 0.0) config.fail(key, "found a zero vector, expected a direction");
-  return v.normalized();
+const keys::Keys<CylinderFilter>& cylinder_keys() {
+  static const keys::Keys<CylinderFilter> keys(
+      "cylinder", "faces on a cylinder", [](auto& key, CylinderFilter& cylinder) {
+        key.number("radius", cylinder.radius, Range::positive(), "radius of the cylinder")
+            .required()
+            .shown_in("length_unit");
+        key.vector("point", cylinder.point, {}, "a point of its axis")
+            .required()
+            .shown_in("length_unit");
+        key.direction("axis", cylinder.axis, "direction of its axis").required();
+      });
+  return keys;
 }
 
-BoxFilter read_box(const Config& config) {
-  const BoxFilter box{vector_of(config, "min"), vector_of(config, "max")};
-  if ((box.min.array() > box.max.array()).any()) config.fail("min", "expected min <= max");
-  return box;
-}
-
-SurfaceFilter read_filter(const Config& table, const std::string& name) {
-  SurfaceFilter filter;
-  if (const auto c = table.find_table("cylinder")) {
-    filter.cylinder = CylinderFilter{c->number("radius", Range::positive()), vector_of(*c, "point"),
-                                     direction_of(*c, "axis")};
-  }
-  if (const auto p = table.find_table("plane")) {
-    filter.plane = PlaneFilter{direction_of(*p, "normal"), p->number("height")};
-  }
-  if (const auto b = table.find_table("box")) filter.box = read_box(*b);
-  if (const auto b = table.find_table("outside")) filter.outside.push_back(read_box(*b));
-  if (!filter.cylinder && !filter.plane && !filter.box && filter.outside.empty()) {
-    table.finish_table();  // a misspelled filter
-    throw InputError(
-        fmt::format("{}: surface.{}: found no filter, expected cylinder, plane, box or outside",
-                    table.where(), name));
-  }
-  return filter;
+const keys::Keys<PlaneFilter>& plane_keys() {
+  static const keys::Keys<PlaneFilter> keys(
+      "plane", "faces in a plane", [](auto& key, PlaneFilter& plane) {
+        key.direction("normal", plane.normal, "normal of the plane").required();
+        key.number("height", plane.height, {},
+                   "distance of the plane from the origin along the normal")
+            .required()
+            .shown_in("length_unit");
+      });
+  return keys;
 }
 
 }  // namespace
@@ -214,16 +215,34 @@ Selection select_faces(const std::vector<FaceFacts>& faces, const NamedSurface& 
   return selection;
 }
 
-std::vector<NamedSurface> read_named_surfaces(const Config& config) {
+const keys::Keys<SurfaceTable>& surface_keys() {
+  static const keys::Keys<SurfaceTable> keys(
+      "surface", "faces that are found by their position; all filters that are given must match",
+      [](auto& key, SurfaceTable& surface) {
+        key.table("cylinder", surface.filter.cylinder, cylinder_keys());
+        key.table("plane", surface.filter.plane, plane_keys());
+        key.table("box", surface.filter.box, box_keys(), "faces inside a box along the axes");
+        key.table("outside", surface.outside, box_keys(), "no faces inside a box along the axes");
+        key.number("tolerance", surface.tolerance, Range::positive(),
+                   "largest distance of a face from the filters; without it 1e-6 of the part's "
+                   "size, or 1e-4 with a warning")
+            .shown_in("length_unit");
+        key.check([](const Config& table, SurfaceTable& s) {
+          if (s.outside) s.filter.outside.push_back(*s.outside);
+          if (!s.filter.cylinder && !s.filter.plane && !s.filter.box && !s.outside)
+            table.fail("cylinder", "give cylinder, plane, box or outside");
+        });
+      });
+  return keys;
+}
+
+std::vector<NamedSurface> named_surfaces(const Config& config,
+                                         const std::map<std::string, SurfaceTable>& tables) {
   std::vector<NamedSurface> surfaces;
-  const auto tables = config.find_table("surface");
-  if (!tables) return surfaces;
-  for (const std::string& name : tables->keys()) {
-    if (name == "skin") tables->fail(name, "the name 'skin' is reserved for the entire boundary");
-    const Config table = tables->table(name);
-    const double tolerance =
-        table.has("tolerance") ? table.number("tolerance", Range::positive()) : 0.0;
-    surfaces.push_back({name, {read_filter(table, name)}, tolerance});
+  for (const auto& [name, table] : tables) {
+    if (name == "skin")
+      config.table("surface").fail(name, "the name 'skin' is reserved for the entire boundary");
+    surfaces.push_back({name, {table.filter}, table.tolerance});
   }
   return surfaces;
 }

@@ -3,11 +3,12 @@
 // Selection of faces by position, never by number: booleans and imports renumber them (hard case
 // G5).
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/base/config.hpp"
+#include "core/keys/keys.hpp"
 #include "mesh/face/face_shape.hpp"
 
 namespace clatter::mesh {
@@ -88,10 +89,16 @@ struct Selection {
 Selection select_faces(const std::vector<FaceFacts>& faces, const NamedSurface& surface,
                        const SelectionScale& scale, const std::string& where);
 
-/// Reads the tables [surface.NAME] with the keys cylinder = {radius, point, axis},
-/// plane = {normal, height}, box = {min, max}, outside = {min, max}, tolerance; lengths in the
-/// part's unit.
-std::vector<NamedSurface> read_named_surfaces(const Config& config);
+/// A table [surface.NAME]; lengths in the part's unit.
+struct SurfaceTable {
+  SurfaceFilter filter;
+  std::optional<BoxFilter> outside;
+  double tolerance = 0.0;
+};
+const keys::Keys<SurfaceTable>& surface_keys();
+/// The tables as surfaces; `config`: the file, for messages.
+std::vector<NamedSurface> named_surfaces(const Config& config,
+                                         const std::map<std::string, SurfaceTable>& tables);
 
 /// Diagonal of the box around all edges of the faces.
 double size_of_part(const std::vector<FaceFacts>& faces);

@@ -6,6 +6,7 @@
 #include "core/base/json_line.hpp"
 #include "core/base/log.hpp"
 #include "core/base/whole_file.hpp"
+#include "core/keys/schema_line.hpp"
 #include "mesh/geometry/cad_unit.hpp"
 
 namespace clatter::mesh {
@@ -25,12 +26,15 @@ std::string cad_description(const std::filesystem::path& source,
       std::filesystem::relative(std::filesystem::absolute(source), folder, unrelated);
   if (unrelated || relative.empty()) relative = std::filesystem::absolute(source);
   const std::string unit = cad_unit(source);
-  std::string text = fmt::format(
-      "name = {}\nkind = \"cad\"\nlength_unit = \"mm\"         # of this description; {}\n\n[cad]\n"
-      "source = {}\n",
-      json_text(source.stem().string()),
-      unit.empty() ? "the file gives no unit" : fmt::format("the file is in {}", unit),
-      json_text(relative.string()));
+  std::string text =
+      keys::schema_line("mesh") +
+      fmt::format(
+          "name = {}\nkind = \"cad\"\nlength_unit = \"mm\"         # of this description; "
+          "{}\n\n[cad]\n"
+          "source = {}\n",
+          json_text(source.stem().string()),
+          unit.empty() ? "the file gives no unit" : fmt::format("the file is in {}", unit),
+          json_text(relative.string()));
   if (element_size_mm > 0.0)
     text += fmt::format(
         "\n[mesh]\nelement_size_mm = {}\n\n"

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "mesh/geometry/length_row.hpp"
+
 namespace clatter::mesh {
 namespace {
 
@@ -283,50 +285,66 @@ std::vector<NamedSurface> block_surfaces(const BlockParameters& p) {
 
 }  // namespace
 
-BlockParameters read_block(const Config& t) {
-  BlockParameters p;
-  p.cylinders = static_cast<int>(t.integer_or("cylinders", p.cylinders, {1, 8}));
-  p.parent_bores = t.choice("bores", {"wet_liner", "parent"}) == "parent";
-  const auto length = [&](const char* key, double& value) {
-    value = t.number_or(key, value, Range::positive());
-  };
-  length("bore", p.bore);
-  length("stroke", p.stroke);
-  length("rod_length", p.rod_length);
-  length("cylinder_pitch", p.cylinder_pitch);
-  length("deck_height", p.deck_height);
-  length("deck_thickness", p.deck_thickness);
-  length("deck_overhang", p.deck_overhang);
-  length("liner_wall", p.liner_wall);
-  length("liner_length", p.liner_length);
-  if (p.parent_bores && t.has("liner_protrusion")) {
-    t.fail("liner_protrusion", "found a value, expected none: parent bores end at the roof");
-  }
-  if (!p.parent_bores) length("liner_protrusion", p.liner_protrusion);
-  length("jacket_thickness", p.jacket_thickness);
-  length("jacket_depth", p.jacket_depth);
-  length("outer_wall", p.outer_wall);
-  length("end_wall", p.end_wall);
-  length("column_width", p.column_width);
-  length("column_reach", p.column_reach);
-  length("crankcase_half_width", p.crankcase_half_width);
-  length("crankcase_wall", p.crankcase_wall);
-  length("shoulder_height", p.shoulder_height);
-  length("crankcase_top", p.crankcase_top);
-  length("skirt_depth", p.skirt_depth);
-  length("flange_width", p.flange_width);
-  length("flange_thickness", p.flange_thickness);
-  length("bearing_wall", p.bearing_wall);
-  p.bearing_wall_bottom = t.number_or("bearing_wall_bottom", p.bearing_wall_bottom);
-  length("bearing_bore", p.bearing_bore);
-  length("bearing_boss", p.bearing_boss);
-  length("bearing_width", p.bearing_width);
-  length("mount_length", p.mount_length);
-  length("mount_height", p.mount_height);
-  length("mount_thickness", p.mount_thickness);
-  check_block(t, p);
-  if (const auto timing = t.find_table("timing")) p.timing = read_timing_side(*timing, p);
-  return p;
+const keys::Keys<BlockParameters>& block_keys() {
+  static const keys::Keys<BlockParameters> keys(
+      "block", "the block of an inline engine", [](auto& key, BlockParameters& p) {
+        key.integer("cylinders", p.cylinders, {1, 8}, "number of cylinders");
+        key.choice("bores", p.parent_bores, {{"wet_liner", false}, {"parent", true}},
+                   "wet liners, or bores in the casting");
+        length(key, "bore", p.bore, "diameter of the cylinders");
+        length(key, "stroke", p.stroke, "stroke of the pistons");
+        length(key, "rod_length", p.rod_length,
+               "length of the connecting rod, from centre to centre");
+        length(key, "cylinder_pitch", p.cylinder_pitch, "distance of neighbouring cylinder axes");
+        length(key, "deck_height", p.deck_height, "height of the deck above the crank axis");
+        length(key, "deck_thickness", p.deck_thickness, "thickness of the deck plate");
+        length(key, "deck_overhang", p.deck_overhang,
+               "how far the deck plate reaches over the housing's walls");
+        length(key, "liner_wall", p.liner_wall,
+               "thickness of the liners, or of the walls of parent bores");
+        length(key, "liner_length", p.liner_length, "length of the liners from the deck down");
+        length(key, "liner_protrusion", p.liner_protrusion,
+               "length of the liners below the lower deck, free in the crankcase")
+            .needs("bores", "wet_liner", "parent bores end at the roof");
+        length(key, "jacket_thickness", p.jacket_thickness,
+               "thickness of the water around the liners");
+        length(key, "jacket_depth", p.jacket_depth, "depth of the water below the deck plate");
+        length(key, "outer_wall", p.outer_wall, "thickness of the housing around the water");
+        length(key, "end_wall", p.end_wall, "thickness of the walls at the front and rear");
+        length(key, "column_width", p.column_width,
+               "width of the columns of the head bolts, along the crankshaft");
+        length(key, "column_reach", p.column_reach,
+               "half width of these columns across the crankshaft");
+        length(key, "crankcase_half_width", p.crankcase_half_width,
+               "half of the crankcase's width");
+        length(key, "crankcase_wall", p.crankcase_wall, "thickness of the crankcase's walls");
+        length(key, "shoulder_height", p.shoulder_height,
+               "height above the crank axis at which the crankcase begins to narrow");
+        length(key, "crankcase_top", p.crankcase_top,
+               "height above the crank axis at which it ends to narrow");
+        length(key, "skirt_depth", p.skirt_depth, "depth of the pan flange below the crank axis");
+        length(key, "flange_width", p.flange_width, "width of the pan flange");
+        length(key, "flange_thickness", p.flange_thickness, "thickness of the pan flange");
+        length(key, "bearing_wall", p.bearing_wall,
+               "thickness of the walls that carry the main bearings");
+        key.number("bearing_wall_bottom", p.bearing_wall_bottom, {},
+                   "height of the lower edge of the inner bearing walls, from the crank axis")
+            .shown_in("length_unit");
+        length(key, "bearing_bore", p.bearing_bore, "diameter of the main bearings");
+        length(key, "bearing_boss", p.bearing_boss, "outer diameter of the main bearings");
+        length(key, "bearing_width", p.bearing_width,
+               "length of the main bearings along the crankshaft");
+        length(key, "mount_length", p.mount_length,
+               "length of the mount pads along the crankshaft");
+        length(key, "mount_height", p.mount_height, "height of the mount pads");
+        length(key, "mount_thickness", p.mount_thickness, "thickness of the mount pads");
+        key.table("timing", p.timing, timing_keys());
+        key.check([](const Config& table, BlockParameters& block) {
+          check_block(table, block);
+          if (block.timing) finish_timing_side(table.table("timing"), block, *block.timing);
+        });
+      });
+  return keys;
 }
 
 PartGeometry build_block(GmshSession& s, const BlockParameters& p) {

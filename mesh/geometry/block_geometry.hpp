@@ -67,8 +67,8 @@ struct BlockParameters {
   double jacket_bottom() const { return jacket_top() - jacket_depth; }
 };
 
-/// Reads table [block]; InputError for dimensions that do not fit together.
-BlockParameters read_block(const Config& table);
+/// The keys of [block]; InputError for dimensions that do not fit together.
+const keys::Keys<BlockParameters>& block_keys();
 
 /// Regions "block" and "liner" (conformal; without it where bores are parent). Surfaces
 /// liner_i_bore, head_i (top face of liner i, where the gasket presses), bearing_k, mount_1..4

@@ -14,18 +14,17 @@ namespace {
 
 constexpr double kBoxTolerance = 0.01;  // a wrong unit gives a factor of at least 2.54
 
-void check_box(GmshSession& session, const Config& table, const std::string& unit) {
-  if (!table.has("expected_box")) return;
-  const std::vector<double> expected = table.numbers("expected_box", 3);
+void check_box(GmshSession& session, const CadParameters& p, const std::string& unit) {
+  if (!p.expected_box) return;
+  const Eigen::Vector3d& expected = *p.expected_box;
   const BoxFilter box = session.extent();
   const Eigen::Vector3d found = box.max - box.min;
   for (int d = 0; d < 3; ++d) {
     if (std::abs(found[d] - expected[d]) <= kBoxTolerance * expected[d]) continue;
-    table.fail(
-        "expected_box",
-        fmt::format("found a part of {:.6g} x {:.6g} x {:.6g} {}, expected {:.6g} x {:.6g} "
-                    "x {:.6g}: is the file in another unit?",
-                    found[0], found[1], found[2], unit, expected[0], expected[1], expected[2]));
+    throw InputError(fmt::format(
+        "{}: found a part of {:.6g} x {:.6g} x {:.6g} {}, expected {:.6g} x {:.6g} x {:.6g}: is "
+        "the file in another unit?",
+        p.where_box, found[0], found[1], found[2], unit, expected[0], expected[1], expected[2]));
   }
 }
 
@@ -78,24 +77,41 @@ std::vector<CadSolid> join_solids(GmshSession& session, const Solids& solids, do
 
 }  // namespace
 
-PartGeometry build_cad(GmshSession& session, const Config& table, const std::string& unit,
-                       const CadChange& change) {
-  const auto length = [&](const char* key, double changed) {
-    const double given = table.number_or(key, 0.0, Range::not_negative());
-    return changed > 0.0 ? changed : given;
-  };
-  const std::string region = table.text_or("region", "solid");
-  Solids solids = session.import_cad(table.path("source"), unit);
-  const double narrow = length("defeature_below", change.defeature_below);
-  const double within = length("join_within", change.join_within);
-  if (narrow > 0.0) solids = without_small_features(session, solids, narrow, unit);
-  if (solids.size() < 2 && table.has("join_within"))
-    table.fail("join_within", "found one solid, expected several whose faces are to be joined");
+const keys::Keys<CadParameters>& cad_keys() {
+  static const keys::Keys<CadParameters> keys(
+      "cad", "a part of a CAD program", [](auto& key, CadParameters& p) {
+        key.path("source", p.source, "STEP, BREP or IGES file").required();
+        key.text("region", p.region, "name of the region; NAME_1, NAME_2, ... of several solids");
+        key.vector("expected_box", p.expected_box, Range::positive(),
+                   "size of the part within 1 %, against a wrong unit")
+            .shown_in("length_unit");
+        key.number("volume_tolerance", p.volume_tolerance, {0.0, 1.0, true},
+                   "largest relative error of the volume of each of several solids in the mesh");
+        key.number("defeature_below", p.defeature_below, Range::not_negative(),
+                   "narrower faces are removed: fillets, chamfers, tiny holes")
+            .shown_in("length_unit");
+        key.number("join_within", p.join_within, Range::not_negative(),
+                   "faces of different solids that are nearer become one")
+            .shown_in("length_unit");
+        key.check([](const Config& table, CadParameters& c) {
+          c.where_box = table.where("expected_box");
+          if (table.has("join_within")) c.where_join = table.where("join_within");
+        });
+      });
+  return keys;
+}
+
+PartGeometry build_cad(GmshSession& session, const CadParameters& p, const std::string& unit) {
+  Solids solids = session.import_cad(p.source, unit);
+  if (p.defeature_below > 0.0)
+    solids = without_small_features(session, solids, p.defeature_below, unit);
+  if (solids.size() < 2 && !p.where_join.empty())
+    throw InputError(p.where_join +
+                     ": found one solid, expected several whose faces are to be joined");
   PartGeometry part;
-  part.volume_tolerance =
-      table.number_or("volume_tolerance", part.volume_tolerance, {0.0, 1.0, true});
+  part.volume_tolerance = p.volume_tolerance;
   if (solids.size() > 1) {
-    part.cad_solids = join_solids(session, solids, within);
+    part.cad_solids = join_solids(session, solids, p.join_within);
     Solids pieces;
     for (const CadSolid& solid : part.cad_solids)
       pieces.insert(pieces.end(), solid.pieces.begin(), solid.pieces.end());
@@ -103,9 +119,9 @@ PartGeometry build_cad(GmshSession& session, const Config& table, const std::str
     pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
     solids = in_order(session, pieces);
   }
-  check_box(session, table, unit);
+  check_box(session, p, unit);
   for (size_t i = 0; i < solids.size(); ++i) {
-    const std::string name = solids.size() == 1 ? region : fmt::format("{}_{}", region, i + 1);
+    const std::string name = solids.size() == 1 ? p.region : fmt::format("{}_{}", p.region, i + 1);
     part.regions.push_back({name, {solids[i]}});
   }
   return part;

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/config.hpp"
 #include "mesh/cad/gmsh_session.hpp"
 #include "mesh/face/select.hpp"
 
@@ -34,22 +33,6 @@ struct PartGeometry {
       1e-6;  // of a CAD solid against its mesh, in addition to the chord error; relative
   std::string unit = "mm";  // of its lengths, for messages
 };
-
-/// A length unit in metres: "mm", "cm", "m" or "in" (key `length_unit`, default "mm").
-struct LengthUnit {
-  std::string name = "mm";
-  double metres = 1e-3;
-};
-LengthUnit read_length_unit(const Config& config);
-
-/// Keys of [cad] that a trial sets in place of the description's; 0: does not.
-struct CadChange {
-  double defeature_below = 0.0, join_within = 0.0;
-};
-
-/// Builds the part of key `kind` ("block", "piston", "rod", "box", "cylinder", "cad") from the
-/// table of the same name, and adds the user's surfaces [surface.NAME].
-PartGeometry build_part(GmshSession& session, const Config& config, const CadChange& change = {});
 
 /// The only solid of a list; NumericsError for more: a boolean of connected shapes has failed.
 Solid require_one(const Solids& solids, const std::string& what);

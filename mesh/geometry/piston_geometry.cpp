@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "mesh/geometry/length_row.hpp"
+
 namespace clatter::mesh {
 namespace {
 
@@ -19,8 +21,6 @@ void check_piston(const Config& t, const PistonParameters& p) {
   require(p.land_heights.size() == p.groove_heights.size() + 1, "land_heights",
           fmt::format("found {} lands and {} grooves, expected one land more than grooves",
                       p.land_heights.size(), p.groove_heights.size()));
-  for (double h : p.land_heights) require(h > 0.0, "land_heights", "expected heights > 0");
-  for (double h : p.groove_heights) require(h > 0.0, "groove_heights", "expected heights > 0");
   require(p.bowl_diameter < p.diameter, "bowl_diameter", "expected less than diameter");
   require(p.groove_depth < p.belt_wall, "groove_depth", "expected less than belt_wall");
   require(p.belt_wall < radius, "belt_wall", "expected less than half the diameter");
@@ -157,31 +157,39 @@ double PistonParameters::belt_bottom() const {
   return compression_height - lands - grooves;
 }
 
-PistonParameters read_piston(const Config& t) {
-  PistonParameters p;
-  const auto length = [&](const char* key, double& value) {
-    value = t.number_or(key, value, Range::positive());
-  };
-  length("diameter", p.diameter);
-  length("compression_height", p.compression_height);
-  length("skirt_depth", p.skirt_depth);
-  p.pin_offset = t.number_or("pin_offset", p.pin_offset);
-  length("bowl_diameter", p.bowl_diameter);
-  length("bowl_depth", p.bowl_depth);
-  length("crown_thickness", p.crown_thickness);
-  length("belt_wall", p.belt_wall);
-  length("groove_depth", p.groove_depth);
-  p.land_heights = t.numbers_or("land_heights", p.land_heights);
-  p.groove_heights = t.numbers_or("groove_heights", p.groove_heights);
-  length("skirt_wall", p.skirt_wall);
-  length("panel_distance", p.panel_distance);
-  length("panel_wall", p.panel_wall);
-  length("pin_diameter", p.pin_diameter);
-  length("boss_diameter", p.boss_diameter);
-  length("boss_gap", p.boss_gap);
-  length("pillar_width", p.pillar_width);
-  check_piston(t, p);
-  return p;
+const keys::Keys<PistonParameters>& piston_keys() {
+  static const keys::Keys<PistonParameters> keys(
+      "piston", "an aluminium piston", [](auto& key, PistonParameters& p) {
+        length(key, "diameter", p.diameter, "diameter of the piston, without barrel and clearance");
+        length(key, "compression_height", p.compression_height,
+               "distance from the pin to the crown");
+        length(key, "skirt_depth", p.skirt_depth, "distance from the pin to the skirt's lower end");
+        key.number("pin_offset", p.pin_offset, {}, "offset of the pin toward the thrust side")
+            .shown_in("length_unit");
+        length(key, "bowl_diameter", p.bowl_diameter, "diameter of the bowl in the crown");
+        length(key, "bowl_depth", p.bowl_depth, "depth of the bowl");
+        length(key, "crown_thickness", p.crown_thickness, "thickness of the crown under the bowl");
+        length(key, "belt_wall", p.belt_wall,
+               "thickness of the ring belt, inside the outer diameter");
+        length(key, "groove_depth", p.groove_depth, "depth of the ring grooves");
+        key.numbers("land_heights", p.land_heights, Range::positive(),
+                    "heights of the lands, from the crown down")
+            .shown_in("length_unit");
+        key.numbers("groove_heights", p.groove_heights, Range::positive(),
+                    "heights of the grooves between the lands")
+            .shown_in("length_unit");
+        length(key, "skirt_wall", p.skirt_wall, "thickness of the skirt");
+        length(key, "panel_distance", p.panel_distance,
+               "distance from the middle to the outer side of the panels");
+        length(key, "panel_wall", p.panel_wall, "thickness of the panels between skirt and bosses");
+        length(key, "pin_diameter", p.pin_diameter, "diameter of the pin bore");
+        length(key, "boss_diameter", p.boss_diameter, "diameter of the pin bosses");
+        length(key, "boss_gap", p.boss_gap, "distance between the bosses, where the rod is");
+        length(key, "pillar_width", p.pillar_width,
+               "width of the pillars between bosses and crown");
+        key.check(check_piston);
+      });
+  return keys;
 }
 
 PartGeometry build_piston(GmshSession& session, const PistonParameters& p) {

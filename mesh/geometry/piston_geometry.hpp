@@ -32,8 +32,8 @@ struct PistonParameters {
   double under_crown() const { return compression_height - bowl_depth - crown_thickness; }
 };
 
-/// Reads table [piston]; InputError for dimensions that do not fit together.
-PistonParameters read_piston(const Config& table);
+/// The keys of [piston]; InputError for dimensions that do not fit together.
+const keys::Keys<PistonParameters>& piston_keys();
 
 /// Region "piston". Surfaces crown (all faces loaded by gas pressure; their resultant is
 /// pi/4 diameter^2 in -z), skirt (outer faces of both sides below the belt), pin_bore.

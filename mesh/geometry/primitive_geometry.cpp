@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "mesh/geometry/length_row.hpp"
+
 namespace clatter::mesh {
 namespace {
 
@@ -22,17 +24,38 @@ NamedSurface cylinder_surface(const std::string& name, double radius) {
 
 }  // namespace
 
-PartGeometry build_box(GmshSession& session, const Config& table) {
-  const std::vector<double> size = table.numbers("size", 3);
-  const std::vector<double> origin = table.numbers_or("origin", {0.0, 0.0, 0.0});
-  if (origin.size() != 3) table.fail("origin", "expected 3 numbers");
-  if (!(size[0] > 0.0 && size[1] > 0.0 && size[2] > 0.0)) {
-    table.fail("size", "expected three lengths > 0");
-  }
-  const Vector3d min(origin[0], origin[1], origin[2]);
-  const Vector3d max = min + Vector3d(size[0], size[1], size[2]);
+const keys::Keys<BoxParameters>& box_part_keys() {
+  static const keys::Keys<BoxParameters> keys(
+      "box", "a box along the axes", [](auto& key, BoxParameters& p) {
+        key.vector("size", p.size, Range::positive(), "size along x, y and z")
+            .required()
+            .shown_in("length_unit");
+        key.vector("origin", p.origin, {}, "its lower corner").shown_in("length_unit");
+        key.text("region", p.region, "name of the region");
+      });
+  return keys;
+}
+
+const keys::Keys<CylinderParameters>& cylinder_part_keys() {
+  static const keys::Keys<CylinderParameters> keys(
+      "cylinder", "a cylinder or tube along z", [](auto& key, CylinderParameters& p) {
+        length(key, "radius", p.radius, "outer radius").required();
+        length(key, "length", p.length, "length from z = 0 up").required();
+        key.number("inner_radius", p.inner_radius, Range::not_negative(),
+                   "inner radius of a tube, 0 for none")
+            .shown_in("length_unit");
+        key.text("region", p.region, "name of the region");
+        key.check([](const Config& table, CylinderParameters& c) {
+          if (c.inner_radius >= c.radius) table.fail("inner_radius", "expected less than radius");
+        });
+      });
+  return keys;
+}
+
+PartGeometry build_box(GmshSession& session, const BoxParameters& p) {
+  const Vector3d min = p.origin, max = min + p.size;
   PartGeometry part;
-  part.regions.push_back({table.text_or("region", "solid"), {session.box(min, max)}});
+  part.regions.push_back({p.region, {session.box(min, max)}});
   const std::array<std::string, 3> letters = {"x", "y", "z"};
   for (int d = 0; d < 3; ++d) {
     part.surfaces.push_back(plane_surface(letters[d] + "_min", Vector3d::Unit(d), min[d]));
@@ -41,11 +64,8 @@ PartGeometry build_box(GmshSession& session, const Config& table) {
   return part;
 }
 
-PartGeometry build_cylinder(GmshSession& session, const Config& table) {
-  const double radius = table.number("radius", Range::positive());
-  const double length = table.number("length", Range::positive());
-  const double inner = table.number_or("inner_radius", 0.0, Range::not_negative());
-  if (inner >= radius) table.fail("inner_radius", "expected less than radius");
+PartGeometry build_cylinder(GmshSession& session, const CylinderParameters& p) {
+  const double radius = p.radius, length = p.length, inner = p.inner_radius;
   const Vector3d axis(0.0, 0.0, length);
   Solids solids = {session.cylinder(Vector3d::Zero(), axis, radius)};
   PartGeometry part;
@@ -56,7 +76,7 @@ PartGeometry build_cylinder(GmshSession& session, const Config& table) {
     solids = session.cut(solids, {session.cylinder(Vector3d::Zero(), axis, inner)});
     part.surfaces.push_back(cylinder_surface("inner", inner));
   }
-  part.regions.push_back({table.text_or("region", "solid"), {require_one(solids, "cylinder")}});
+  part.regions.push_back({p.region, {require_one(solids, "cylinder")}});
   return part;
 }
 

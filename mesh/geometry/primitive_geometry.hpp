@@ -5,11 +5,22 @@
 
 namespace clatter::mesh {
 
-/// [box] size = [lx, ly, lz], origin = corner (default 0). Surfaces x_min, x_max, y_min, ... z_max.
-PartGeometry build_box(GmshSession& session, const Config& table);
+/// Lengths in the part's unit.
+struct BoxParameters {
+  Eigen::Vector3d size = Eigen::Vector3d::Zero(), origin = Eigen::Vector3d::Zero();
+  std::string region = "solid";
+};
+struct CylinderParameters {
+  double radius = 0.0, length = 0.0, inner_radius = 0.0;  // 0: solid
+  std::string region = "solid";
+};
+const keys::Keys<BoxParameters>& box_part_keys();
+const keys::Keys<CylinderParameters>& cylinder_part_keys();
 
-/// [cylinder] radius, length, inner_radius (0: solid), axis z from the origin. Surfaces bottom,
-/// top, outer, and inner of a hollow one.
-PartGeometry build_cylinder(GmshSession& session, const Config& table);
+/// Surfaces x_min, x_max, y_min, ... z_max.
+PartGeometry build_box(GmshSession& session, const BoxParameters& p);
+
+/// Axis z from the origin. Surfaces bottom, top, outer, and inner of a hollow one.
+PartGeometry build_cylinder(GmshSession& session, const CylinderParameters& p);
 
 }  // namespace clatter::mesh

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "mesh/geometry/length_row.hpp"
+
 namespace clatter::mesh {
 namespace {
 
@@ -79,25 +81,25 @@ NamedSurface bore(const std::string& name, double z, double diameter) {
 
 }  // namespace
 
-RodParameters read_rod(const Config& t) {
-  RodParameters p;
-  const auto length = [&](const char* key, double& value) {
-    value = t.number_or(key, value, Range::positive());
-  };
-  length("length", p.length);
-  length("big_bore", p.big_bore);
-  length("big_outer", p.big_outer);
-  length("big_width", p.big_width);
-  length("small_bore", p.small_bore);
-  length("small_outer", p.small_outer);
-  length("small_width", p.small_width);
-  length("shank_bottom", p.shank_bottom);
-  length("shank_top", p.shank_top);
-  length("shank_thickness", p.shank_thickness);
-  length("flange", p.flange);
-  length("web", p.web);
-  check_rod(t, p);
-  return p;
+const keys::Keys<RodParameters>& rod_keys() {
+  static const keys::Keys<RodParameters> keys(
+      "rod", "a connecting rod", [](auto& key, RodParameters& p) {
+        length(key, "length", p.length, "distance of the centres of the eyes");
+        length(key, "big_bore", p.big_bore, "diameter of the big end's bore");
+        length(key, "big_outer", p.big_outer, "outer diameter of the big end");
+        length(key, "big_width", p.big_width, "width of the big end along the crankshaft");
+        length(key, "small_bore", p.small_bore, "diameter of the small end's bore");
+        length(key, "small_outer", p.small_outer, "outer diameter of the small end");
+        length(key, "small_width", p.small_width, "width of the small end along the crankshaft");
+        length(key, "shank_bottom", p.shank_bottom, "width of the shank at the big end");
+        length(key, "shank_top", p.shank_top, "width of the shank at the small end");
+        length(key, "shank_thickness", p.shank_thickness,
+               "thickness of the shank along the crankshaft");
+        length(key, "flange", p.flange, "width of the flanges beside the pockets");
+        length(key, "web", p.web, "thickness between the pockets; shank_thickness for none");
+        key.check(check_rod);
+      });
+  return keys;
 }
 
 PartGeometry build_rod(GmshSession& session, const RodParameters& p) {

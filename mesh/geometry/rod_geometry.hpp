@@ -25,8 +25,8 @@ struct RodParameters {
   double flange = 7, web = 8;  // web = shank_thickness: no pockets
 };
 
-/// Reads table [rod]; InputError for dimensions that do not fit together.
-RodParameters read_rod(const Config& table);
+/// The keys of [rod]; InputError for dimensions that do not fit together.
+const keys::Keys<RodParameters>& rod_keys();
 
 /// Region "rod". Surfaces big_bore, small_bore.
 PartGeometry build_rod(GmshSession& session, const RodParameters& p);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "mesh/geometry/block_geometry.hpp"
+#include "mesh/geometry/length_row.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -30,11 +31,6 @@ std::array<Seat, 4> seats(const TimingSide& t) {
            {"guide_bolt_2", t.guide_bolt_2, bolt, bolt},
            {"arm_pivot", t.arm_pivot, pivot, pivot},
            {"tensioner", t.tensioner, 0.5 * t.tensioner_width, 0.5 * t.tensioner_height}}};
-}
-
-Vector2d position(const Config& table, const char* key) {
-  const std::vector<double> value = table.numbers(key, 2);
-  return {value[0], value[1]};
 }
 
 // Boxes around two seats: apart when a gap remains in either direction.
@@ -140,47 +136,62 @@ NamedSurface facing_front(const std::string& name, double x, const BoxFilter& bo
 
 }  // namespace
 
-TimingSide read_timing_side(const Config& table, const BlockParameters& p) {
-  TimingSide t;
-  t.cam_intake = position(table, "cam_intake");
-  t.cam_exhaust = position(table, "cam_exhaust");
-  t.guide_bolt_1 = position(table, "guide_bolt_1");
-  t.guide_bolt_2 = position(table, "guide_bolt_2");
-  t.arm_pivot = position(table, "arm_pivot");
-  t.tensioner = position(table, "tensioner");
-  const auto length = [&](const char* key, double& value) {
-    value = table.number_or(key, value, Range::positive());
-  };
-  length("cam_bore", t.cam_bore);
-  length("cam_boss", t.cam_boss);
-  length("cam_bearing_width", t.cam_bearing_width);
-  t.cam_seal = 0.5 * (t.cam_bore + t.cam_boss);
-  length("cam_seal", t.cam_seal);
-  t.crank_seal = 0.5 * (p.bearing_bore + p.bearing_boss);
-  length("crank_seal", t.crank_seal);
-  length("head_wall", t.head_wall);
-  length("fire_deck", t.fire_deck);
-  length("head_jacket", t.head_jacket);
-  length("cam_deck", t.cam_deck);
-  length("plug_tower", t.plug_tower);
-  length("plate_thickness", t.plate_thickness);
-  length("bolt_boss", t.bolt_boss);
-  length("pivot_boss", t.pivot_boss);
-  length("tensioner_width", t.tensioner_width);
-  length("tensioner_height", t.tensioner_height);
-  length("boss_length", t.boss_length);
+const keys::Keys<TimingSide>& timing_keys() {
+  static const keys::Keys<TimingSide> keys(
+      "timing",
+      "front plate and head of a timing drive; positions are X to the right and Y up in the front "
+      "view, from the crank axis",
+      [](auto& key, TimingSide& t) {
+        const auto position = [&key](const char* name, Vector2d& at, const char* meaning) {
+          key.vector(name, at, {}, meaning).required().shown_in("length_unit");
+        };
+        position("cam_intake", t.cam_intake, "centre of the intake camshaft");
+        position("cam_exhaust", t.cam_exhaust, "centre of the exhaust camshaft");
+        position("guide_bolt_1", t.guide_bolt_1, "centre of the guide's first bolt");
+        position("guide_bolt_2", t.guide_bolt_2, "centre of the guide's second bolt");
+        position("arm_pivot", t.arm_pivot, "centre of the tensioner arm's pivot");
+        position("tensioner", t.tensioner, "centre of the tensioner's seat");
+        length(key, "cam_bore", t.cam_bore, "diameter of the camshaft bearings");
+        length(key, "cam_boss", t.cam_boss, "outer diameter of the camshaft bearings");
+        length(key, "cam_bearing_width", t.cam_bearing_width,
+               "length of the camshaft bearings along the crankshaft");
+        length(key, "cam_seal", t.cam_seal,
+               "diameter of the openings before the end bearings of the camshafts; between bore "
+               "and boss without it");
+        length(key, "crank_seal", t.crank_seal, "the same of the crankshaft");
+        length(key, "head_wall", t.head_wall, "thickness of the head's walls");
+        length(key, "fire_deck", t.fire_deck, "height of the head's lower deck");
+        length(key, "head_jacket", t.head_jacket, "height of the head's hollow");
+        length(key, "cam_deck", t.cam_deck, "height of the head's upper deck");
+        length(key, "plug_tower", t.plug_tower, "diameter of the towers between the two decks");
+        length(key, "plate_thickness", t.plate_thickness, "thickness of the front plate");
+        length(key, "bolt_boss", t.bolt_boss, "diameter of the guide bolts' seats");
+        length(key, "pivot_boss", t.pivot_boss, "diameter of the arm pivot's seat");
+        length(key, "tensioner_width", t.tensioner_width, "width of the tensioner's seat");
+        length(key, "tensioner_height", t.tensioner_height, "height of the tensioner's seat");
+        length(key, "boss_length", t.boss_length, "length of all seats before the front face");
+        length(key, "head_half_width", t.head_half_width,
+               "half width of the head; head_wall beside the camshaft bearings without it");
+        length(key, "plate_half_width", t.plate_half_width,
+               "of the front plate, from the crank axis; beside the seats and the head without it");
+      });
+  return keys;
+}
+
+void finish_timing_side(const Config& table, const BlockParameters& p, TimingSide& t) {
+  if (t.cam_seal == 0.0) t.cam_seal = 0.5 * (t.cam_bore + t.cam_boss);
+  if (t.crank_seal == 0.0) t.crank_seal = 0.5 * (p.bearing_bore + p.bearing_boss);
   const double cams = std::max(std::abs(t.cam_intake.x()), std::abs(t.cam_exhaust.x()));
-  t.head_half_width = cams + 0.5 * t.cam_boss + t.head_wall;
-  length("head_half_width", t.head_half_width);
-  t.plate_half_width = t.head_half_width + t.plate_thickness;
-  for (const Seat& seat : seats(t)) {
-    t.plate_half_width = std::max(
-        t.plate_half_width, std::abs(seat.centre.x()) + seat.half_width + 0.5 * t.plate_thickness);
+  if (t.head_half_width == 0.0) t.head_half_width = cams + 0.5 * t.cam_boss + t.head_wall;
+  if (t.plate_half_width == 0.0) {
+    t.plate_half_width = t.head_half_width + t.plate_thickness;
+    for (const Seat& seat : seats(t))
+      t.plate_half_width =
+          std::max(t.plate_half_width,
+                   std::abs(seat.centre.x()) + seat.half_width + 0.5 * t.plate_thickness);
   }
-  length("plate_half_width", t.plate_half_width);
   check_head(table, t, p);
   check_plate(table, t, p);
-  return t;
 }
 
 Solids timing_walls(GmshSession& s, const BlockParameters& p) {

@@ -57,8 +57,11 @@ inline Eigen::Vector3d from_front_view(const Eigen::Vector2d& point, double x) {
   return {x, -point.x(), point.y()};
 }
 
-/// Reads table [block.timing]; InputError for dimensions that do not fit the block or each other.
-TimingSide read_timing_side(const Config& table, const BlockParameters& block);
+/// The keys of [block.timing].
+const keys::Keys<TimingSide>& timing_keys();
+/// Sets what follows from other dimensions; InputError when they do not fit the block or each
+/// other.
+void finish_timing_side(const Config& table, const BlockParameters& block, TimingSide& timing);
 
 /// Solids that touch or overlap the block: head, plate, cam bosses and seats. `block.timing` is
 /// set, here and below.

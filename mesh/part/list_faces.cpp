@@ -10,9 +10,7 @@
 #include "core/base/log.hpp"
 #include "core/base/wire.hpp"
 #include "mesh/cad/gmsh_session.hpp"
-#include "mesh/geometry/part_geometry.hpp"
 #include "mesh/part/gmsh_in_child.hpp"
-#include "mesh/part/mesher.hpp"
 
 namespace clatter::mesh {
 
@@ -86,16 +84,14 @@ FaceTriangles triangles_of(GmshSession& session, const FaceList& list) {
 
 }  // namespace
 
-ListedFaces list_faces(const Config& config, const std::string& where, bool triangles) {
-  const LengthUnit unit = read_length_unit(config);
+ListedFaces list_faces(const PartFile& file, const std::string& where, bool triangles) {
+  const LengthUnit& unit = file.shape.unit;
   ListedFaces result;
-  result.list.name = config.text("name");
+  result.list.name = file.name;
   result.list.unit = unit.name;
   result.metres = unit.metres;
-  read_mesh_settings(config);  // marks its keys as known
   GmshSession session(result.list.name);
-  const PartGeometry part = build_part(session, config);
-  config.finish();
+  const PartGeometry part = build_part(session, file.shape);
   result.list.volume = session.volume(session.all_solids());
   result.list.faces = session.boundary_faces();
   name_faces(part, where, result.list);
@@ -110,11 +106,11 @@ ListedFaces list_faces(const Config& config, const std::string& where, bool tria
   return result;
 }
 
-ListedFaces list_faces_in_child(const Config& config, const std::string& where, bool triangles,
+ListedFaces list_faces_in_child(const PartFile& file, const std::string& where, bool triangles,
                                 const ChildLimits& limits) {
   const auto attempt = [&](bool with_triangles) {
     return run_in_child(with_news(limits),
-                        [&] { return to_wire(list_faces(config, where, with_triangles)); });
+                        [&] { return to_wire(list_faces(file, where, with_triangles)); });
   };
   ChildEnd end = attempt(triangles);
   const bool fell = !end.done() && end.kind != ChildEnd::Kind::kTimeLimit &&

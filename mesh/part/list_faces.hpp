@@ -2,8 +2,8 @@
 #pragma once
 // Faces of a part as built or imported, without meshing it.
 #include "core/base/child_process.hpp"
-#include "core/base/config.hpp"
 #include "mesh/face/face_list.hpp"
+#include "mesh/part/part_file.hpp"
 
 namespace clatter::mesh {
 
@@ -16,12 +16,12 @@ struct ListedFaces {
 /// Builds the part of a description and lists its faces. With `triangles` also as triangles of a
 /// thirtieth of the part's size, 24 on a full circle, which suffices to draw the faces and to find
 /// their outer side. A surface that selects no face, and faces that cannot be meshed, give
-/// warnings. Messages begin with `where`. Errors as of build_part(), and for an unknown key.
-ListedFaces list_faces(const Config& config, const std::string& where, bool triangles);
+/// warnings. Messages begin with `where`. Errors as of build_part().
+ListedFaces list_faces(const PartFile& file, const std::string& where, bool triangles);
 
 /// The same in a child process. When Gmsh crashes on the triangles they are left out with a
 /// warning; NumericsError when it crashes on the geometry, or at a limit of time or memory.
-ListedFaces list_faces_in_child(const Config& config, const std::string& where, bool triangles,
+ListedFaces list_faces_in_child(const PartFile& file, const std::string& where, bool triangles,
                                 const ChildLimits& limits);
 
 /// The default element size of a part: that of about 30 000 tetrahedra in its volume, V = 30 000

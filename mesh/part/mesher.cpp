@@ -172,40 +172,6 @@ void certify_volume(GmshSession& session, const PartGeometry& part, const RawMes
 
 }  // namespace
 
-MeshSettings read_mesh_settings(const Config& config) {
-  MeshSettings settings;
-  const auto table = config.find_table("mesh");
-  if (!table) return settings;
-  settings.element_size =
-      1e-3 * table->number_or("element_size_mm", 1e3 * settings.element_size, Range::positive());
-  settings.min_size = 1e-3 * table->number_or("min_size_mm", 0.0, Range::not_negative());
-  settings.elements_per_turn =
-      static_cast<int>(table->integer_or("elements_per_turn", 0, {0.0, 1000.0}));
-  settings.min_dihedral_deg =
-      table->number_or("min_dihedral_deg", settings.min_dihedral_deg, {0.0, 60.0});
-  settings.min_scaled_jacobian =
-      table->number_or("min_scaled_jacobian", settings.min_scaled_jacobian, {0.0, 0.9});
-  settings.refine_passes =
-      static_cast<int>(table->integer_or("refine_passes", settings.refine_passes, {0.0, 20.0}));
-  settings.max_cells = table->number_or("max_cells", settings.max_cells, Range::positive());
-  settings.accept_poor_cells = table->flag_or("accept_poor_cells", false);
-  if (settings.min_size > settings.element_size) {
-    table->fail("min_size_mm", "expected at most element_size_mm");
-  }
-  for (const Config& local : table->tables("local")) {
-    const std::string surface = local.text("surface");
-    LocalSize size{surface};
-    size.factor = local.number_or("factor", 1.0, {0.0, 1.0, true});
-    size.elements_per_turn =
-        static_cast<int>(local.integer_or("elements_per_turn", 0, {0.0, 1000.0}));
-    size.growth = local.number_or("growth", 0.0, {0.0, 10.0});
-    if (!local.has("factor") && size.elements_per_turn == 0)
-      local.fail("factor", "found neither factor nor elements_per_turn, expected one of them");
-    settings.local.push_back(size);
-  }
-  return settings;
-}
-
 QualityLimits aims_of(const MeshSettings& settings) {
   return {settings.min_dihedral_deg, settings.min_scaled_jacobian};
 }

@@ -32,7 +32,6 @@ struct MeshSettings {
   std::vector<LocalSize> local;      // [[mesh.local]]
   bool adaptive_faces = false;       // no key: for parts on which Gmsh's frontal algorithm crashes
 };
-MeshSettings read_mesh_settings(const Config& config);
 QualityLimits aims_of(const MeshSettings& settings);
 /// Of the part's size: the largest edge that Gmsh makes; larger sizes are reduced to it.
 inline constexpr double kCoarsest = 0.1;

@@ -31,8 +31,8 @@ namespace clatter::mesh {
 
 template <class Archive, SelfOf<MadePart> Self>
 void wire(Archive& archive, Self& s) {
-  auto& [part, config, steps, cad, refusal] = s;
-  archive(part, config, steps, cad, refusal);
+  auto& [part, steps, cad, refusal] = s;
+  archive(part, steps, cad, refusal);
 }
 
 namespace {
@@ -63,13 +63,11 @@ class ScratchFolder {
 // In the child.
 MadePart make_part(const PartJob& job, const MeshSettings& settings,
                    const std::filesystem::path& scratch) {
-  const Config& config = *job.config;
-  const LengthUnit unit = read_length_unit(config);
+  const LengthUnit& unit = job.part->shape.unit;
   StepClock clock;
   MadePart made;
-  GmshSession session(job.name);
-  const PartGeometry part = build_part(session, config);
-  config.finish();
+  GmshSession session(job.part->name);
+  const PartGeometry part = build_part(session, job.part->shape);
   clock.lap("geometry");
   if (!job.cad_extension.empty()) {
     const std::filesystem::path file = scratch / ("part" + job.cad_extension);
@@ -77,13 +75,12 @@ MadePart make_part(const PartJob& job, const MeshSettings& settings,
     made.cad = read_whole_file(file);
   }
   try {
-    made.part = mesh_part(session, part, settings, unit.metres, job.name, job.where);
+    made.part = mesh_part(session, part, settings, unit.metres, job.part->name, job.where);
   } catch (const NumericsError& error) {
     made.refusal = error.what();
     return made;
   }
   clock.lap("mesh");
-  made.config = config.resolved();
   made.steps = clock.steps();
   return made;
 }
@@ -116,7 +113,7 @@ std::string advice_of(const ChildEnd& end) {
 /// Why the mesh is refused, or nothing; its poor cells are said and noted.
 std::string refusal_of(MadePart& made, const PartJob& job, const MeshSettings& settings) {
   if (!made.refusal.empty()) return made.refusal;
-  const LengthUnit unit = read_length_unit(*job.config);
+  const LengthUnit& unit = job.part->shape.unit;
   const QualityLimits aims = aims_of(settings);
   const PoorCells poor = find_poor_cells(made.part.mesh, made.part.quality, aims);
   note_poor_cells(poor, made.part.certificate);
@@ -144,7 +141,7 @@ Attempt simpler_than(MeshSettings settings) {
 
 MadePart make_part_in_child(const PartJob& job, const ChildLimits& limits) {
   const Stopwatch clock;
-  MeshSettings requested = read_mesh_settings(*job.config);
+  MeshSettings requested = job.part->mesh;
   if (job.element_size > 0.0) requested.element_size = job.element_size;
   requested.accept_poor_cells = requested.accept_poor_cells || job.accept_poor_cells;
   std::optional<ScratchFolder> scratch;

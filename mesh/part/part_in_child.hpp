@@ -7,17 +7,15 @@
 #include <vector>
 
 #include "core/base/child_process.hpp"
-#include "core/base/config.hpp"
 #include "core/base/stopwatch.hpp"
-#include "mesh/geometry/part_geometry.hpp"
-#include "mesh/part/mesher.hpp"
+#include "mesh/part/part_file.hpp"
 
 namespace clatter::mesh {
 
 /// The part to build.
 struct PartJob {
-  const Config* config = nullptr;  // of the part; read in the child
-  std::string name, where;         // of the part; prefix of messages: the description's path
+  const PartFile* part = nullptr;
+  std::string where;               // prefix of messages: the description's path
   std::string cad_extension;       // ".step" or ".brep": write the geometry too; empty: no
   double element_size = 0.0;       // overrides the description's [m]; 0: does not
   bool accept_poor_cells = false;  // overrides the description's, when true
@@ -25,14 +23,12 @@ struct PartJob {
 
 struct MadePart {
   PartMesh part;
-  std::string config;                  // Config::resolved()
   std::vector<StepClock::Step> steps;  // duration of each step
   std::string cad;                     // content of the geometry file, if requested
   std::string refusal;                 // instead of all these: why there is no valid mesh
 };
 
-/// Builds the part, checks that its description holds no unknown key, and meshes it; identical to
-/// the result without a child process.
+/// Builds and meshes the part; identical to the result without a child process.
 ///
 /// When Gmsh crashes, exits or throws while meshing, one simpler setting is tried with a warning:
 /// without `elements_per_turn` if that was set, else with MeshAdapt on the faces; the certificate's

@@ -13,7 +13,6 @@
 #include "core/base/log.hpp"
 #include "core/base/stopwatch.hpp"
 #include "mesh/cad/gmsh_small_features.hpp"
-#include "mesh/geometry/part_geometry.hpp"
 #include "mesh/part/mesh_wire.hpp"
 
 namespace clatter::mesh {
@@ -54,7 +53,7 @@ void wire(Archive& archive, Self& s) {
 struct Remedy {
   std::string text;
   MeshSettings settings;
-  CadChange change = {};
+  double defeature_below = 0.0, join_within = 0.0;  // of [cad], where above 0
 };
 
 void be_silent() {
@@ -66,8 +65,8 @@ std::optional<PartFacts> facts_of(const PartJob& job, double size, const ChildLi
   try {
     const ChildEnd end = run_in_child(limits, [&] {
       be_silent();
-      GmshSession session(job.name);
-      const PartGeometry part = build_part(session, *job.config);
+      GmshSession session(job.part->name);
+      const PartGeometry part = build_part(session, job.part->shape);
       const std::vector<FaceFacts> faces = session.boundary_faces();
       return to_wire(PartFacts{find_small_features(session, faces, kFarBelow * size),
                                static_cast<int64_t>(part.cad_solids.size()),
@@ -86,11 +85,14 @@ std::optional<int64_t> cells_with(const PartJob& job, const Remedy& remedy,
   try {
     const ChildEnd end = run_in_child(limits, [&] {
       be_silent();
-      const LengthUnit unit = read_length_unit(*job.config);
-      GmshSession session(job.name);
-      const PartGeometry part = build_part(session, *job.config, remedy.change);
+      PartShape shape = job.part->shape;
+      if (remedy.defeature_below > 0.0) shape.cad.defeature_below = remedy.defeature_below;
+      if (remedy.join_within > 0.0) shape.cad.join_within = remedy.join_within;
+      const LengthUnit& unit = shape.unit;
+      GmshSession session(job.part->name);
+      const PartGeometry part = build_part(session, shape);
       const PartMesh made =
-          mesh_part(session, part, remedy.settings, unit.metres, job.name, job.where);
+          mesh_part(session, part, remedy.settings, unit.metres, job.part->name, job.where);
       const QualityLimits aims = aims_of(remedy.settings);
       const std::string refusal =
           refusal_of_poor_cells(find_poor_cells(made.mesh, made.quality, aims), made.mesh, aims,
@@ -123,14 +125,14 @@ std::vector<Remedy> remedies_for(const PartJob& job, const MeshSettings& refused
   const char* size =
       !has_description || job.element_size > 0.0 ? "--element-size-mm" : "element_size_mm =";
   const double narrow = narrow_width(facts.small.faces);
-  if (job.config->text("kind") == "cad" && narrow > 0.0) {
-    const Config cad = job.config->table("cad");
-    if (facts.solids > 1 && !cad.has("join_within"))
+  const PartShape& shape = job.part->shape;
+  if (shape.kind == "cad" && narrow > 0.0) {
+    if (facts.solids > 1 && shape.cad.join_within == 0.0)
       list.push_back(
-          {fmt::format("[cad] join_within = {:g}{}", narrow, where), refused, {0.0, narrow}});
-    if (!cad.has("defeature_below"))
+          {fmt::format("[cad] join_within = {:g}{}", narrow, where), refused, 0.0, narrow});
+    if (shape.cad.defeature_below == 0.0)
       list.push_back(
-          {fmt::format("[cad] defeature_below = {:g}{}", narrow, where), refused, {narrow, 0.0}});
+          {fmt::format("[cad] defeature_below = {:g}{}", narrow, where), refused, narrow, 0.0});
   }
   const double coarsest = metres_per_unit * facts.coarsest;
   const auto with_size = [&](double factor) {
@@ -158,7 +160,7 @@ std::string tried_advice(const PartJob& job, const MeshSettings& refused, const 
   const Stopwatch clock;
   ChildLimits mine = limits;
   const auto left = [&] { return seconds - clock.seconds(); };
-  const LengthUnit unit = read_length_unit(*job.config);
+  const LengthUnit& unit = job.part->shape.unit;
   mine.seconds = seconds;
   const auto facts = facts_of(job, refused.element_size / unit.metres, mine);
   if (!facts) return "";

@@ -50,6 +50,37 @@ TEST(Recipe, UnknownNamesListWhatThereIs) {
                {"suport"});
 }
 
+TEST(Recipe, KeysThatDoNotGoTogetherAreRefusedWithTheReason) {
+  const auto refused = [](const std::string& table, const std::string& said) {
+    expect_parts(recipe_refusal(kSteelToml + table), {said});
+  };
+  const std::string load = "[[load]]\nname = \"a\"\n";
+  refused(load + "kind = \"gravity\"\ndirection = [0, 0, 1]\nsurface = \"z0\"\n",
+          "part.fe.toml:10: load[0].surface: needs kind = \"pressure\" or \"resultant\" or "
+          "\"displacement\"");
+  refused(load + "kind = \"acceleration\"\n",
+          "part.fe.toml:6: load[0].direction: is missing, kind = \"resultant\" or \"gravity\" "
+          "needs it");
+  refused("[[support]]\nsurface = \"z0\"\nnode_set = \"all\"\n",
+          "part.fe.toml:8: support[0].node_set: surface and node_set exclude each other");
+  refused("[[support]]\ndirections = \"x\"\n",
+          "part.fe.toml:6: support[0].surface: give surface or node_set or point");
+  refused("[[support]]\nsurface = \"z0\"\ndirections = \"xrx\"\n",
+          "found \"x r x\", expected each");
+  refused("[[support]]\nsurface = \"z0\"\ndirections = [\"rx\"]\n",
+          "part.fe.toml:8: support[0].directions: found \"rx\", expected x, y or z");
+  refused("[[support]]\nsurface = \"z0\"\nsystem = \"axle\"\n",
+          "part.fe.toml:8: support[0].system: found \"axle\", expected one of: ");
+  refused("[[coupling]]\nsurface = \"z0\"\n", "part.fe.toml:6: coupling[0].name: is missing");
+  refused("[[coupling]]\nname = \"a\"\ntype = \"rigid\"\nsurface = \"z0\"\ndofs = 6\n",
+          "part.fe.toml:10: coupling[0].dofs: needs type = \"distributing\"");
+  refused("[damping]\nratio = 0.1\nalpha = 1.0\nat_hz = 10\n",
+          "part.fe.toml:8: damping.alpha: alpha and ratio exclude each other");
+  refused("[damping]\nratio = 0.1\n", "part.fe.toml:6: damping.at_hz: is missing, ratio needs it");
+  refused("[[point]]\nname = \"p\"\nnode_set = \"all\"\nnumber = 3\n",
+          "part.fe.toml:9: point[0].number: needs at");
+}
+
 TEST(Recipe, TemperatureNeedsAMaterialThatExpands) {
   expect_parts(recipe_refusal(std::string(kSteelToml) +
                               "[[load]]\nname = \"hot\"\nkind = \"temperature\"\nvalue = 20.0\n"),
@@ -72,6 +103,8 @@ TEST(Recipe, RefusesMaterialsThatDoNotExist) {
   expect_parts(material("E = 0.0\nnu = 0.3\nrho = 7800.0\n"), {"E", "0"});
   expect_parts(material("E = 2e11\nnu = 0.5\nrho = 7800.0\n"), {"nu", "0.5"});
   expect_parts(material("E = 2e11\nE_gpa = 200.0\nnu = 0.3\nrho = 7800.0\n"), {"E_gpa"});
+  expect_parts(material("E = 2e11\nnu = 0.3\nrho = 7800.0\nsystem = \"wood\"\n"),
+               {"system", "wood"});
   expect_parts(material("E = nan\nnu = 0.3\nrho = 7800.0\n"), {"E"});
 }
 

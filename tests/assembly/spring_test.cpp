@@ -183,8 +183,8 @@ TEST(Matrices, OfMassHaveWeightAndCountInTheTotal) {
 
 TEST(Matrices, WithoutMeaningAreRefused) {
   const std::string one = "[[matrix]]\nterms = [ { node_set = \"n0\", direction = \"x\" } ]\n";
-  expect_parts(spring_refusal(one), {"found neither K nor M"});
-  expect_parts(spring_refusal(one + "K = [1.0]\nM = [1.0]\n"), {"found M as well"});
+  expect_parts(spring_refusal(one), {"K: give K or M"});
+  expect_parts(spring_refusal(one + "K = [1.0]\nM = [1.0]\n"), {"M: K and M exclude each other"});
   expect_parts(spring_refusal(one + "K = [1.0, 2.0]\n"),
                {"found 2 numbers for 1 terms, expected 1: the lower triangle"});
 }

@@ -146,7 +146,7 @@ TEST(CraigChang, HoldsForASolidOnItsSupports) {
 
 TEST(BadInput, CraigChangNeedsACutOffOrACount) {
   const auto parse = [](const std::string& text) {
-    return read_condense_options(Config::parse(text, "box.rom.toml"));
+    return condense_keys().read(Config::parse(text, "box.rom.toml"));
   };
   EXPECT_TRUE(
       parse("boundary = [\"left\"]\nmethod = \"craig-chang\"\nfmax_hz = 10.0\n").modes.own_modes);

@@ -88,7 +88,7 @@ TEST(CutOffSearchTest, AnAccuracyOutOfReachIsSaidNotClaimed) {
 TEST(BadInput, AccuracyBesideACutOffOrWithoutAnErrorIsRefused) {
   const auto parse = [](const std::string& text) {
     return test::refusal_of([&] {
-      read_condense_options(Config::parse("boundary = [\"left\"]\n" + text, "box.rom.toml"));
+      condense_keys().read(Config::parse("boundary = [\"left\"]\n" + text, "box.rom.toml"));
     });
   };
   EXPECT_EQ(parse("accurate_to_hz = 3000\nfrequency_error = 0.005\n"), "accepted");

@@ -249,7 +249,7 @@ TEST(BadInput, OtherProgramsAndFixedSetsDoNotGetAReducedInterface) {
 TEST(BadInput, InterfacesThatMakeNoSenseAreRefused) {
   const auto parse = [](const std::string& table) {
     return test::refusal_of([&] {
-      read_condense_options(Config::parse(
+      condense_keys().read(Config::parse(
           "boundary = [\"left\", \"liner\"]\ncount = 4\n[interface]\n" + table, "box.rom.toml"));
     });
   };

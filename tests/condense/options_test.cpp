@@ -9,7 +9,7 @@ namespace clatter::condense {
 namespace {
 
 CondenseOptions parse(const std::string& text) {
-  return read_condense_options(
+  return condense_keys().read(
       Config::parse("boundary = [\"left\"]\ncount = 4\n" + text, "box.rom.toml"));
 }
 

@@ -46,7 +46,7 @@ class Twin : public ::testing::Test {
  protected:
   Solids build(const std::string& text) {
     const Config config = Config::parse(text, "twin.toml");
-    return build_block(session_, read_block(config.table("block"))).regions.front().solids;
+    return build_block(session_, block_keys().read(config.table("block"))).regions.front().solids;
   }
   double volume_within(const Solids& solids, Solid window) {
     return session_.volume(session_.intersect(session_.copy(solids), {window}));
@@ -180,7 +180,7 @@ TEST(TimingSide, DimensionsThatDoNotFitAreRefusedWithFileLineAndKey) {
         Config::parse(std::string(kTwin) + timing + key + " = " + value + "\n", "twin.toml");
     std::vector<std::string> all = {"twin.toml:", ": block.timing." + key + ": "};
     all.insert(all.end(), parts.begin(), parts.end());
-    test::expect_parts(test::refusal_of([&] { read_block(config.table("block")); }), all);
+    test::expect_parts(test::refusal_of([&] { block_keys().read(config.table("block")); }), all);
   };
   refused("cam_intake", "[-52, 270]", {"found a bearing down to Y = 259", "cam deck at 267"});
   refused("cam_exhaust", "[56, 320]", {"found 20 above the other", "0.35 cam_boss = 14.7"});
@@ -204,7 +204,7 @@ TEST(TimingSide, DimensionsThatDoNotFitAreRefusedWithFileLineAndKey) {
                                 const std::string& part) {
     const Config config =
         Config::parse(with(with(kTwin, "bearing_wall", "20"), key, value), "twin.toml");
-    test::expect_parts(test::refusal_of([&] { read_block(config.table("block")); }),
+    test::expect_parts(test::refusal_of([&] { block_keys().read(config.table("block")); }),
                        {"twin.toml:", part});
   };
   block_refused("bearing_wall", "40", "found 40, expected less than 0.4 pitch = 36");
@@ -212,8 +212,8 @@ TEST(TimingSide, DimensionsThatDoNotFitAreRefusedWithFileLineAndKey) {
   block_refused("bearing_boss", "104", "bearing_boss: found 104, expected less than 100");
   block_refused("cylinder_pitch", "79", "found 79, expected more than the bore 80");
   const Config protruding = Config::parse(std::string(kTwin) + "liner_protrusion = 5\n", "t.toml");
-  test::expect_parts(test::refusal_of([&] { read_block(protruding.table("block")); }),
-                     {"t.toml:34: block.liner_protrusion: found a value, expected none"});
+  test::expect_parts(test::refusal_of([&] { block_keys().read(protruding.table("block")); }),
+                     {"t.toml:34: block.liner_protrusion: needs bores = \"wet_liner\""});
 }
 
 }  // namespace

@@ -3,11 +3,9 @@
 // Meshes of part.mesh.toml texts.
 #include <string>
 
-#include "core/base/config.hpp"
 #include "core/mesh/boundary.hpp"
 #include "mesh/cad/gmsh_session.hpp"
-#include "mesh/geometry/part_geometry.hpp"
-#include "mesh/part/mesher.hpp"
+#include "mesh/part/part_file.hpp"
 
 namespace clatter::mesh::testing {
 
@@ -22,13 +20,10 @@ struct Meshed {
 };
 
 inline Meshed mesh_toml(const std::string& text) {
-  const Config config = Config::parse(text, "part.toml");
-  GmshSession session(config.text("name"));
-  const LengthUnit unit = read_length_unit(config);
-  const MeshSettings settings = read_mesh_settings(config);
-  const PartGeometry part = build_part(session, config);
-  config.finish();
-  return {mesh_part(session, part, settings, unit.metres, config.text("name"), "part.toml")};
+  const PartFile file = part_keys().read(Config::parse(text, "part.toml"));
+  GmshSession session(file.name);
+  const PartGeometry part = build_part(session, file.shape);
+  return {mesh_part(session, part, file.mesh, file.shape.unit.metres, file.name, "part.toml")};
 }
 
 }  // namespace clatter::mesh::testing

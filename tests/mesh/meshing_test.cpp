@@ -166,7 +166,7 @@ TEST(Gmsh, HardG5_FourBoresAndDecksAreFoundAfterARotation) {
   {
     const Config config = Config::parse("name = 'b'\nkind = 'block'\n[block]\n", "b.toml");
     GmshSession session("turned");
-    build_part(session, config);
+    build_part(session, part_keys().read(config).shape);
     session.rotate(session.all_solids(), Vector3d::Zero(), Vector3d::UnitX(), 17.0);
     session.write_cad(folder / "turned.step", "mm");
   }
@@ -346,8 +346,7 @@ TEST(Mesher, ALocalSizeWithoutEffectIsRefused) {
       test::refusal_of([&] {
         mesh_toml(kBeam + std::string("[[mesh.local]]\nsurface = 'x_min'\ngrowth = 0.2\n"));
       }),
-      {"part.toml:",
-       "mesh.local[0].factor: found neither factor nor elements_per_turn, expected one of them"});
+      {"part.toml:", "mesh.local[0].factor: give factor or elements_per_turn"});
 }
 
 TEST(Mesher, ImpossibleDimensionsAreRefusedByName) {

@@ -39,13 +39,11 @@ TEST(Predict, CellsWithinAFactorOfTwo) {
 
 /// Refused before any cell is made.
 void expect_prediction_refused(const std::string& toml, const std::vector<std::string>& says) {
-  const Config config = Config::parse(toml, "part.toml");
-  GmshSession session(config.text("name"));
-  const LengthUnit unit = read_length_unit(config);
-  const MeshSettings settings = read_mesh_settings(config);
-  const PartGeometry part = build_part(session, config);
+  const PartFile file = part_keys().read(Config::parse(toml, "part.toml"));
+  GmshSession session(file.name);
+  const PartGeometry part = build_part(session, file.shape);
   test::expect_parts(test::refusal_of([&] {
-                       mesh_part(session, part, settings, unit.metres, config.text("name"),
+                       mesh_part(session, part, file.mesh, file.shape.unit.metres, file.name,
                                  "part.toml");
                      }),
                      says);

@@ -36,7 +36,7 @@ TEST(RodGeometry, VolumeAndBoresAreThoseOfItsPlan) {
     const Config config = Config::parse(
         fmt::format("name = 'rod'\nkind = 'rod'\n[rod]\nweb = {}\n", web), "rod.toml");
     GmshSession session("rod");
-    const PartGeometry part = build_part(session, config);
+    const PartGeometry part = build_part(session, part_keys().read(config).shape);
     ASSERT_EQ(part.regions.size(), 1U);
     double volume = 0.0;
     constexpr double kStep = 0.05;  // [mm]: 2e-4 of the volume is at the edges of the plan
@@ -65,7 +65,8 @@ TEST(RodGeometry, ItsMeshHasItsBores) {
 TEST(RodGeometry, DimensionsThatDoNotFitAreRefusedByKey) {
   const auto refused = [](const std::string& key, double value) {
     const std::string said = test::refusal_of([&] {
-      read_rod(Config::parse(fmt::format("[rod]\n{} = {}\n", key, value), "rod.toml").table("rod"));
+      rod_keys().read(
+          Config::parse(fmt::format("[rod]\n{} = {}\n", key, value), "rod.toml").table("rod"));
     });
     EXPECT_NE(said.find("rod." + key), std::string::npos) << said;
   };

@@ -32,9 +32,11 @@ FaceFacts cylinder_face() {
 
 std::vector<NamedSurface> surfaces(const std::string& text) {
   const Config config = Config::parse(text, "part.toml");
-  auto result = read_named_surfaces(config);
-  config.finish();
-  return result;
+  const Config tables = config.table("surface");
+  std::map<std::string, SurfaceTable> read;
+  for (const std::string& name : tables.keys())
+    read[name] = surface_keys().read(tables.table(name));
+  return named_surfaces(config, read);
 }
 
 TEST(Select, FiltersCombine) {
@@ -121,13 +123,12 @@ TEST(Select, ATrueFaceKeepsANearOneOutAndTheUsersToleranceTakesBoth) {
 }
 
 TEST(Select, WrongTablesAreRefused) {
-  test::expect_parts(
-      test::refusal_of([&] { surfaces("[surface.s]\n"); }),
-      {"part.toml:1: surface.s: found no filter, expected cylinder, plane, box or outside"});
-  test::expect_parts(
-      test::refusal_of(
-          [&] { surfaces("[surface.s]\nplane = { normal = [0, 0, 0], height = 1 }"); }),
-      {"part.toml:2: surface.s.plane.normal: found a zero vector, expected a direction"});
+  test::expect_parts(test::refusal_of([&] { surfaces("[surface.s]\n"); }),
+                     {"part.toml:1: surface.s.cylinder: give cylinder, plane, box or outside"});
+  test::expect_parts(test::refusal_of([&] {
+                       surfaces("[surface.s]\nplane = { normal = [0, 0, 0], height = 1 }");
+                     }),
+                     {"part.toml:2: surface.s.plane.normal: found length 0, expected a direction"});
   test::expect_parts(test::refusal_of([&] {
                        surfaces("[surface.s]\nplain = { normal = [0, 0, 1], height = 1 }");
                      }),

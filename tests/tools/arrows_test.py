@@ -26,7 +26,7 @@ LIBRARIES = {
     "core/sound": {"core/base", "core/dense"},
     "core/fe": {"core/base", "core/dense", "core/keys", "core/mesh", "core/rom"},
     "core/modes": {"core/base", "core/dense", "core/keys", "core/mesh", "core/rom", "core/fe", "core/sparse"},
-    "core/ranks": {"core/base", "core/dense", "core/mesh", "core/rom", "core/fe", "core/sparse"},
+    "core/ranks": {"core/base", "core/dense", "core/keys", "core/mesh", "core/rom", "core/fe", "core/sparse"},
 }
 # Stages: each is one program, writes files for the next one, and uses no other stage.
 STAGES = {

@@ -8,13 +8,19 @@ std::string name_of(EigenMethod method) {
   return method == EigenMethod::kAmls ? "amls" : "block-lanczos";
 }
 
-EigenChoice read_eigen_choice(const Config& config) {
-  EigenChoice out;
-  const std::string solver = config.choice("eigen_solver", {"block-lanczos", "arpack", "amls"});
-  for (const EigenMethod method : {EigenMethod::kArpack, EigenMethod::kAmls})
-    if (solver == name_of(method)) out.method = method;
-  out.accuracy = config.number_or("accuracy", out.accuracy, {1e-6, 0.1});
-  return out;
+const keys::Keys<EigenChoice>& eigen_choice_keys() {
+  static const keys::Keys<EigenChoice> keys(
+      "eigen-solver", "how modes are computed", [](auto& key, EigenChoice& choice) {
+        key.choice("eigen_solver", choice.method,
+                   {{"block-lanczos", EigenMethod::kBlockLanczos},
+                    {"arpack", EigenMethod::kArpack},
+                    {"amls", EigenMethod::kAmls}},
+                   "exact by Lanczos' method, in blocks or of ARPACK, or approximate by automated "
+                   "multilevel substructuring, which suits many modes");
+        key.number("accuracy", choice.accuracy, Range::between(1e-6, 0.1),
+                   "of amls: largest estimated relative error of a frequency");
+      });
+  return keys;
 }
 
 }  // namespace clatter::sparse

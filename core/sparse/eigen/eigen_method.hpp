@@ -3,7 +3,7 @@
 // The eigen-solvers by name, and the options that select one.
 #include <string>
 
-#include "core/base/config.hpp"
+#include "core/keys/keys.hpp"
 
 namespace clatter::sparse {
 
@@ -19,8 +19,7 @@ struct EigenChoice {
   double accuracy = 5e-3;  // of kAmls: largest estimated relative error of a frequency
 };
 
-/// The keys `eigen_solver` and `accuracy`; InputError for an unknown solver or an accuracy outside
-/// [1e-6, 0.1].
-EigenChoice read_eigen_choice(const Config& config);
+/// The keys `eigen_solver` and `accuracy`.
+const keys::Keys<EigenChoice>& eigen_choice_keys();
 
 }  // namespace clatter::sparse

@@ -9,7 +9,6 @@ try:
     what, folder = sys.argv[1:]
     tables, missing = files.read()
     command.note_missing(missing)
-    for path in {"schemas": schema, "pages": pages}[what].write(tables, folder):
-        print(path)
+    {"schemas": schema, "pages": pages}[what].write(tables, folder)
 except BadArtefact as error:
     sys.exit(f"clatter: error: {error}")

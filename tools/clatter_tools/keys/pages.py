@@ -40,7 +40,7 @@ def section(table, path="", seen=None):
         if "table" in key:
             inner = prefix + key["name"]
             heading, keys = words.heading_of(key, inner), json.dumps(key["table"]["keys"])
-            lines += [f"## `{heading}`", "", sentence(key["meaning"]), ""]
+            lines += [f"## `{heading}`", "", sentence("; ".join([key["meaning"], *words.rules_of(key)])), ""]
             lines += [f"Its keys are those of `{seen[keys]}`.", ""] if keys in seen else section(key["table"], inner, seen)
             seen.setdefault(keys, heading)
     return lines
