@@ -32,8 +32,8 @@ struct Sensor {
 
 /// Finds the sensors; with no rule every set of kind "sensor".
 /// @param T rows of the model's skin
-/// @throws InputError for an unknown set, a duplicate name, or a position farther from the skin than
-/// the part is large; says the distance of positions from their nodes
+/// @throws InputError for an unknown set, a duplicate name, or a position farther from the skin
+/// than the part is large; says the distance of positions from their nodes
 std::vector<Sensor> find_sensors(const std::vector<SensorRule>& rules,
                                  const rom::ReducedModel& model, const rom::SkinRows& T,
                                  const SkinGeometry& geometry);
