@@ -88,7 +88,7 @@ std::vector<TermSpec> RecipeKeys::terms_of(const std::string& what, const Member
   std::vector<TermSpec> terms;
   const auto add = [&](const MemberTable& members) {
     TermSpec term{members.selection, members.weight,
-                  members.directions.empty() ? all : members.directions};
+                  members.directions.empty() ? all : members.directions, members.axes};
     term.selection.where += ": " + what;
     const Selection selection = term.selection;
     if (!selection.surface.empty() || !selection.node_set.empty()) terms.push_back(term);
