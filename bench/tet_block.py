@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A block of n x n x n cubes, six tet10 each, as arrays and as decks; n = 30 has 227 000 nodes, n = 50 a million."""
+"""A block of n x n x n cubes, six tet10 or one hex8 each, as arrays and as decks; n = 30 has 227 000 nodes of tet10, n = 50 a
+million."""
 import itertools
 
 import numpy as np
@@ -27,11 +28,25 @@ def tet_block(n):
     return nodes, np.vstack(cells)
 
 
+def hex_block(n):
+    """The nodes of n x n x n cubes, and the hex8 of each, nodes from 1."""
+    side = n + 1
+    z, y, x = np.meshgrid(*[np.arange(side)] * 3, indexing="ij")
+    nodes = np.column_stack([x.ravel(), y.ravel(), z.ravel()]) * (0.1 / n)
+    k, j, i = (a.ravel() for a in np.meshgrid(*[np.arange(n)] * 3, indexing="ij"))
+    ring = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    return nodes, np.column_stack([i + a + side * (j + b) + side**2 * (k + c) + 1 for c in (0, 1) for a, b in ring])
+
+
+ABAQUS = {10: "C3D10", 8: "C3D8"}
+NASTRAN = {10: "CTETRA", 8: "CHEXA"}
+
+
 def write_abaqus(path, nodes, cells):
     with open(path, "w") as file:
         file.write("*NODE, NSET=NALL\n")
         np.savetxt(file, np.column_stack([np.arange(1, len(nodes) + 1), nodes]), "%d, %.12e, %.12e, %.12e")
-        file.write("*ELEMENT, TYPE=C3D10, ELSET=EALL\n")
+        file.write(f"*ELEMENT, TYPE={ABAQUS[cells.shape[1]]}, ELSET=EALL\n")
         np.savetxt(file, np.column_stack([np.arange(1, len(cells) + 1), cells]), "%d", ", ")
         file.write("*MATERIAL, NAME=M\n*ELASTIC\n2.1E11, .3\n*DENSITY\n7800.\n"
                    "*SOLID SECTION, ELSET=EALL, MATERIAL=M\n*STEP\n*NO ANALYSIS\n*END STEP\n")
@@ -44,10 +59,10 @@ def write_nastran(path, nodes, cells):
         np.savetxt(file, np.column_stack([np.arange(1, len(nodes) + 1), nodes]),
                    "GRID*   %-16d                %16.9e%16.9e*\n*       %16.9e")
         np.savetxt(file, np.column_stack([np.arange(1, len(cells) + 1), np.ones(len(cells), int), cells]),
-                   "CTETRA  " + 8 * "%8d" + "+\n+       " + 4 * "%8d")
+                   f"{NASTRAN[cells.shape[1]]:<8}" + 8 * "%8d" + "+\n+       " + (cells.shape[1] - 6) * "%8d")
         file.write("ENDDATA\n")
 
 
-def make(write, deck, cubes):
-    """Writes the deck in a separate process."""
-    apart(lambda: write(deck, *tet_block(cubes)))
+def make(write, deck, cubes, block=tet_block):
+    """Writes the deck of a block in a separate process."""
+    apart(lambda: write(deck, *block(cubes)))

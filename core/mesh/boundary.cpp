@@ -42,6 +42,10 @@ bool linear_along_edges(const Mesh& mesh, const BoundaryFace& face) {
   });
 }
 
+bool is_linear(const Mesh& mesh, const FaceRef& face) {
+  return traits(mesh.cells[static_cast<size_t>(face.block)].type).order == 1;
+}
+
 void require_same_nodes(const Mesh& mesh, const FaceRef& a, const FaceRef& b) {
   const auto sorted = [&](const FaceRef& face) {
     std::array<int32_t, kMaxFaceNodes> ids = face_at(mesh, face).ids;
@@ -172,7 +176,7 @@ BoundaryFaces boundary_faces(const Mesh& mesh) {
                       name_of(mesh, first[0]), name_of(mesh, first[1]), name_of(mesh, first[2])));
     if (last - first == 1)
       boundary.emplace_hint(boundary.end(), first->key, face_at(mesh, *first));
-    else
+    else if (!is_linear(mesh, first[0]) || !is_linear(mesh, first[1]))
       require_same_nodes(mesh, first[0], first[1]);
   });
   return boundary;

@@ -54,7 +54,8 @@ Eigen::MatrixXd to_bernstein(int degree) {
 struct Sampling {
   std::array<int, 3> degree;
   std::array<Eigen::MatrixXd, 3> bernstein;
-  std::vector<CellShape> shapes;  // at all points, last axis fastest
+  // dN/dxi_k: a row for each point, last axis fastest, a column for each node.
+  std::array<Eigen::MatrixXd, 3> gradients;
 };
 
 Sampling make_sampling(CellType type) {
@@ -64,9 +65,17 @@ Sampling make_sampling(CellType type) {
     at[axis] = line_points(s.degree[axis]);
     s.bernstein[axis] = to_bernstein(s.degree[axis]);
   }
+  const Eigen::Index points = at[0].size() * at[1].size() * at[2].size();
+  for (Eigen::MatrixXd& gradient : s.gradients) gradient.resize(points, traits(type).nodes);
+  Eigen::Index point = 0;
   for (double a : at[0])
     for (double b : at[1])
-      for (double c : at[2]) s.shapes.push_back(cell_shape(type, from_cube(type, {a, b, c})));
+      for (double c : at[2]) {
+        const CellShape shape = cell_shape(type, from_cube(type, {a, b, c}));
+        for (int k = 0; k < 3; ++k)
+          s.gradients[static_cast<size_t>(k)].row(point) = shape.gradient.col(k).transpose();
+        ++point;
+      }
   return s;
 }
 
@@ -86,12 +95,25 @@ void transform_axis(CubePolynomial& p, int axis, const Eigen::MatrixXd& matrix) 
   int stride = 1;
   for (int later = axis + 1; later < 3; ++later) stride *= p.degree[static_cast<size_t>(later)] + 1;
   const Eigen::Index outer = p.coefficients.size() / (n * stride);
+  const CubeValues old = p.coefficients;
   for (Eigen::Index o = 0; o < outer; ++o)
-    for (int s = 0; s < stride; ++s) {
-      Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<>> line(
-          p.coefficients.data() + o * n * stride + s, n, Eigen::InnerStride<>(stride));
-      line = (matrix * line).eval();
-    }
+    for (int i = 0; i < n; ++i)
+      for (int s = 0; s < stride; ++s) {
+        double sum = 0.0;
+        for (int k = 0; k < n; ++k) sum += matrix(i, k) * old((o * n + k) * stride + s);
+        p.coefficients((o * n + i) * stride + s) = sum;
+      }
+}
+
+// The derivatives of x along reference axis k at all points, one column for each of x, y, z.
+using Tangents = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostCubePoints, 3>;
+Tangents tangents(const Eigen::MatrixXd& gradient, const Eigen::Ref<const Eigen::MatrixXd>& x) {
+  Tangents t(gradient.rows(), 3);
+  for (int d = 0; d < 3; ++d) {
+    t.col(d) = x(0, d) * gradient.col(0);
+    for (Eigen::Index i = 1; i < gradient.cols(); ++i) t.col(d) += x(i, d) * gradient.col(i);
+  }
+  return t;
 }
 
 }  // namespace
@@ -110,11 +132,14 @@ Eigen::Vector3d from_cube(CellType type, const Eigen::Vector3d& at) {
 
 CubePolynomial jacobian_polynomial(CellType type, const Eigen::Ref<const Eigen::MatrixXd>& x) {
   const Sampling& s = sampling_of(type);
-  CubePolynomial p{s.degree, Eigen::VectorXd(static_cast<Eigen::Index>(s.shapes.size()))};
-  for (size_t q = 0; q < s.shapes.size(); ++q) {
-    const Eigen::Matrix3d J = x.transpose() * s.shapes[q].gradient;
-    p.coefficients(static_cast<Eigen::Index>(q)) = J.determinant();
-  }
+  const Tangents a = tangents(s.gradients[0], x), b = tangents(s.gradients[1], x),
+                 c = tangents(s.gradients[2], x);
+  CubePolynomial p{s.degree, CubeValues(a.rows())};
+  const auto minor = [&](int i, int j) {
+    return b.col(i).cwiseProduct(c.col(j)) - b.col(j).cwiseProduct(c.col(i));
+  };
+  p.coefficients = a.col(0).cwiseProduct(minor(1, 2)) + a.col(1).cwiseProduct(minor(2, 0)) +
+                   a.col(2).cwiseProduct(minor(0, 1));
   for (int axis = 0; axis < 3; ++axis)
     transform_axis(p, axis, s.bernstein[static_cast<size_t>(axis)]);
   return p;

@@ -16,10 +16,14 @@
 
 namespace clatter::mesh {
 
+/// Points of the largest degree, 5 x 5 x 5.
+inline constexpr int kMostCubePoints = 216;
+using CubeValues = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostCubePoints, 1>;
+
 /// Coefficients of one polynomial of degree n[0] x n[1] x n[2], last index fastest.
 struct CubePolynomial {
   std::array<int, 3> degree;
-  Eigen::VectorXd coefficients;
+  CubeValues coefficients;
 
   int index(int i, int j, int k) const { return (i * (degree[1] + 1) + j) * (degree[2] + 1) + k; }
   /// Smallest of the eight values at the corners.

@@ -184,8 +184,12 @@ JacobianBounds jacobian_bounds(CellType type, const CellNodes& x) {
   if (is_tet(type)) return jacobian_bounds(with_mid_side_nodes(type, x));
   const CubePolynomial p = jacobian_polynomial(type, x);
   const double low = lower_bound(p, 0);
-  const double reference = volume_rule(type).weights.sum();
-  return {low > 0.0 ? low : p.coefficients.minCoeff(), volume_of(type, x) / reference};
+  // The basis polynomials have equal integrals over the cube, of which a hexahedron is a linear
+  // image.
+  const double mean = traits(type).corners == 8
+                          ? p.coefficients.mean()
+                          : volume_of(type, x) / volume_rule(type).weights.sum();
+  return {low > 0.0 ? low : p.coefficients.minCoeff(), mean};
 }
 
 double volume_of(CellType type, const CellNodes& x) {
