@@ -3,27 +3,39 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <utility>
 
 namespace clatter::mesh {
 
 namespace {
 
+bool before(const FaceRef& a, const FaceRef& b) { return a.key < b.key; }
+
 // In linear time up to the few faces of each lowest corner: triangles, whose keys begin with -1,
-// then quadrangles.
-std::vector<FaceRef> sorted_by_key(const std::vector<FaceRef>& faces, Eigen::Index nodes) {
+// then quadrangles. Few faces of high numbers are sorted directly.
+void sort_by_key(std::vector<FaceRef>& faces) {
+  constexpr size_t kUnordered = std::numeric_limits<size_t>::max();  // numbers below 0
+  size_t nodes = 0;
+  for (const FaceRef& face : faces)
+    nodes = std::max(nodes, face.key[1] < 0 ? kUnordered : static_cast<size_t>(face.key[3]) + 1);
+  if (nodes > faces.size()) {
+    std::sort(faces.begin(), faces.end(), before);
+    return;
+  }
   const auto lowest = [&](const FaceRef& face) {
-    return static_cast<size_t>(face.key[0] < 0 ? face.key[1] : nodes + face.key[0]);
+    return face.key[0] < 0 ? static_cast<size_t>(face.key[1])
+                           : nodes + static_cast<size_t>(face.key[0]);
   };
-  std::vector<int64_t> end(2 * static_cast<size_t>(nodes) + 1, 0);
+  std::vector<int64_t> end(2 * nodes + 1, 0);
   for (const FaceRef& face : faces) ++end[lowest(face) + 1];
   for (size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
   std::vector<FaceRef> sorted(faces.size());
   for (const FaceRef& face : faces) sorted[static_cast<size_t>(end[lowest(face)]++)] = face;
-  const auto before = [](const FaceRef& a, const FaceRef& b) { return a.key < b.key; };
   int64_t begin = 0;
   for (size_t i = 0; i + 1 < end.size(); begin = end[i], ++i)
     std::sort(sorted.begin() + begin, sorted.begin() + end[i], before);
-  return sorted;
+  faces = std::move(sorted);
 }
 
 }  // namespace
@@ -56,7 +68,8 @@ std::vector<FaceRef> all_faces(const Mesh& mesh) {
             {face_key(local.type, corners), static_cast<int32_t>(b), static_cast<int32_t>(c), f});
       }
   }
-  return sorted_by_key(faces, mesh.nodes.rows());
+  sort_by_key(faces);
+  return faces;
 }
 
 }  // namespace clatter::mesh

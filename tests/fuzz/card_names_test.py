@@ -20,6 +20,7 @@ class CardNames(unittest.TestCase):
                     self.assertIn(f'"{name}"', words)
                 texts = [path.read_text() for path in (pathlib.Path(folder) / 'seeds').iterdir()]
                 self.assertTrue(any(some[0] + ',' in text for text in texts))
+                self.assertGreater(len(texts), len(names) + 100)  # those of the tests as well
 
 
 if __name__ == '__main__':

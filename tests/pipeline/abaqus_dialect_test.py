@@ -125,7 +125,7 @@ class Decks(unittest.TestCase):
 
     def test_a_wrong_model_differs(self):
         deck = next(one for one in abaqus_decks.DECKS if one.name == "cae_springs_and_dashpots")
-        stiffer = {name: text.replace("3000.", "3001.") for name, text in deck.files.items()}
+        stiffer = {name: text.replace("3000.", "3300.") for name, text in deck.files.items()}
         self.assertEqual(abaqus_decks.rows_of(deck._replace(files=stiffer))[0].verdict, "differs")
 
 
