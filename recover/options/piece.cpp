@@ -180,12 +180,6 @@ Eigen::VectorXd positions(const RunClock& clock, const Piece& piece, int64_t off
   return out;
 }
 
-Taper taper_of(const std::string& name) {
-  for (Taper taper : {Taper::kNone, Taper::kHann, Taper::kTukey, Taper::kFlatTop})
-    if (name_of(taper) == name) return taper;
-  throw InputError("taper: found '" + name + "', expected none, hann, tukey or flattop");
-}
-
 std::string name_of(Taper taper) {
   switch (taper) {
     case Taper::kNone:

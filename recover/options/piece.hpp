@@ -18,7 +18,6 @@ struct Span {
 
 /// Tapers for pieces that are not periodic (Harris 1978).
 enum class Taper { kNone, kHann, kTukey, kFlatTop };
-Taper taper_of(const std::string& name);
 std::string name_of(Taper taper);
 /// Values of a taper at `count` samples; Tukey has cosine flanks of a tenth of the length each.
 Eigen::VectorXd taper_values(Taper taper, int64_t count);

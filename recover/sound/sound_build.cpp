@@ -217,7 +217,8 @@ PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options
   check_limit(model, options);
   const sound::Space space = options.space();
   PartSound out;
-  out.skin = acoustic_skin(model.skin, options.skin.mesh, space.fluid.sound_speed, options.grid.to_hz);
+  out.skin =
+      acoustic_skin(model.skin, options.skin.mesh, space.fluid.sound_speed, options.grid.to_hz);
   clock.lap("acoustic skin");
   const SkinGeometry geometry = measure_skin(model.skin.nodes, model.skin.triangles);
   out.map =

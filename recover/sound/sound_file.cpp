@@ -165,8 +165,9 @@ void write_sound(H5File& file, const PartSound& sound, const SoundOptions& optio
   file.set("/", "air_density_kg_m3", options.air.density);
   file.set("/", "air_sound_speed_m_s", options.air.sound_speed);
   file.set("/", "lids",
-           options.skin.lids == LidMotion::kRest ? "rigid and at rest"
-                                            : "move with the nearest point of an exposed face");
+           options.skin.lids == LidMotion::kRest
+               ? "rigid and at rest"
+               : "move with the nearest point of an exposed face");
   file.set("/", "ground", options.ground ? "rigid plane" : "none");
   if (options.ground) {
     put_sound(file, "ground/normal", Eigen::VectorXd(options.ground->normal), "1",

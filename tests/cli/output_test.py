@@ -41,7 +41,7 @@ class Output(stages.PipelineTest):
     # (stage, arguments after --json, members of "error" in addition to program and message, words of the message)
     ERRORS = [("mesh", ["none.mesh.toml", "-o", "x.mesh.h5"], {"file": "none.mesh.toml", "exit_code": 2}, "no such file"),
               ("assembly", ["beam.mesh.h5", "-c", "wrong.fe.toml", "-o", "x.fe.h5"],
-               {"file": "wrong.fe.toml", "line": 8, "place": "material.steel.rhoo", "exit_code": 2}, "did you mean rho?"),
+               {"file": "wrong.fe.toml", "line": 9, "place": "material.steel.rhoo", "exit_code": 2}, "did you mean rho?"),
               ("modal", ["beam.mesh.h5", "-o", "x.modes.h5"], {"file": "beam.mesh.h5", "place": "schema", "exit_code": 2},
                "found clatter/mesh/"),
               ("condense", ["beam.fe.h5", "--nonsense"], {"exit_code": 2}, "(see clatter-condense --help)"),
@@ -90,8 +90,9 @@ class Output(stages.PipelineTest):
 
 class Commands(stages.PipelineTest):
     """`clatter-modal statics ...`: what a program does besides its usual job."""
-    COMMANDS = {"mesh": ["faces", "export"], "modal": ["statics", "shape", "compare", "export"], "condense": ["export", "add-rows", "predict"],
-                "recover": ["sound", "listen"], "dynamics": ["response"]}
+    COMMANDS = {"mesh": ["faces", "export", "keys"], "assembly": ["keys"], "modal": ["statics", "shape", "compare", "export", "keys"],
+                "condense": ["export", "add-rows", "predict", "keys"],
+                "recover": ["sound", "listen", "keys"], "dynamics": ["response"]}
     # Options that became commands: (stage, arguments, words of the error).
     OLD = [("mesh", ["--faces", "beam.step"], "--faces is now a command: clatter-mesh faces PART"),
            ("modal", ["beam.fe.h5", "--static", "-o", "x.static.h5"], "--static is now a command: clatter-modal statics MODEL"),
