@@ -276,6 +276,7 @@ Row Rows::flag(std::string name, std::optional<bool>& at, std::string meaning) {
 Row Rows::text(std::string name, std::string& at, std::string meaning) {
   Key& key = add(std::move(name), Type::kText, &at, std::move(meaning));
   key.read = [](const Key& row, const Config& table, std::byte* bytes) {
+    if (is_absent(row, table)) return;
     auto& value = member<std::string>(bytes);
     value = row.required ? table.text(row.name) : table.text_or(row.name, value);
   };
@@ -379,6 +380,7 @@ Row Rows::numbers(std::string name, std::vector<double>& at, Range each, std::st
       values = read_list(table, row);
       return;
     }
+    if (values.empty()) return;
     for (double& value : values) value = in_unit(value, row.unit, table.metre());
     table.numbers_or(row.name, values);
     for (double& value : values) value = in_si(value, row.unit, table);

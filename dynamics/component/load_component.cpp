@@ -103,9 +103,10 @@ const Keys<LoadSpec>& load_keys() {
           interpolation_row(key, load.interpolation);
           key.number("scale", load.scale, factor, "factor of the table");
         });
-        key.check([](const Config&, LoadSpec& found) {
+        key.check([](const Config& table, LoadSpec& found) {
           if (found.value) found.scale = *found.value;
-          if (found.unit.empty()) found.unit = found.component < 3 ? "N" : "N m";
+          if (!found.table.empty() && found.unit.empty())
+            found.unit = table.text_or("unit", found.component < 3 ? "N" : "N m");
         });
       });
   return keys;

@@ -121,7 +121,7 @@ const keys::Table& joint_table() { return joint_keys().table(); }
 
 JointSpec read_joint(const Config& tables, std::string_view key) {
   const auto table = tables.find_table(key);
-  return table ? joint_keys().read(*table).joint : JointSpec();
+  return joint_keys().read(table.value_or(Config::parse("", ""))).joint;
 }
 
 }  // namespace clatter::dynamics

@@ -44,9 +44,8 @@ void read_output(const Config& time, TimeTable& table, Scene& scene) {
 /// Cycles of the clock.
 void read_cycles(const Config& root, const Config& time, TimeTable& table, Scene& scene) {
   const bool settles = table.settle > 0.0;
-  table.cycles = table.cycles.value_or(settles ? 30 : 2);
-  if (settles && *table.cycles < 2)
-    time.fail("cycles", "found 1 with settle_to, expected at least 2");
+  table.cycles = static_cast<int>(
+      time.integer_or("cycles", settles ? 30 : 2, Range::between(settles ? 2.0 : 1.0, 1000.0)));
   // An engine starts at its ideal places and loads grow from nothing; other scenes start in the
   // state that they are given.
   const double rest = table.start.empty() && root.has("engine") ? 60.0 * kDegree : 0.0;

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <fstream>
 #include <numbers>
+#include <set>
 #include <sstream>
 
 #include "dynamics/run/run_file.hpp"
@@ -236,9 +237,12 @@ TEST(SceneTable, HasEveryKeyOfTheSamples) {
             "a.toml:2: contact.oil.low: unknown key, did you mean law?");
 }
 
-/// Every key and table has a meaning, and every rule names a key of its table.
+/// Every key and table has a meaning and a name of its own, and every rule names a key of its
+/// table.
 void check_described(const keys::Table& table) {
+  std::set<std::string> names;
   for (const keys::Key& key : table.keys()) {
+    EXPECT_TRUE(names.insert(key.name).second) << table.name() << "." << key.name;
     EXPECT_FALSE(key.meaning.empty()) << table.name() << "." << key.name;
     for (const keys::Rule& rule : key.rules)
       EXPECT_NE(table.find(rule.other), nullptr)

@@ -362,9 +362,9 @@ TEST_F(Runs, BadScenesAreRefusedInOneLine) {
   };
   EXPECT_TRUE(has(refusal("[contact]\nclearance_um = -1.0\n"), "contact.clearance_um: found -1"));
   EXPECT_TRUE(has(refusal("[contact]\nbore_height_mm = [1, 2]\nbore_widening_um = [1]\n"),
-                  "expected as many values as bore_height_mm"));
+                  "expected as many as bore_height_mm"));
   EXPECT_TRUE(has(refusal("[contact]\nbore_height_mm = [1, 2]\nbore_widening_um = [0, -1]\n"),
-                  "contact.bore_widening_um: found -1, expected no value below 0"));
+                  "contact.bore_widening_um: found -1, expected a number at least 0"));
   EXPECT_TRUE(has(refusal("[contact]\nliner_bottom_mm = 300.0\nliner_top_mm = 200.0\n"),
                   "contact.liner_top_mm: found 200, expected more than liner_bottom_mm, 300"));
   EXPECT_TRUE(has(refusal("[contact]\nlubricaton = \"none\"\n"), "did you mean lubrication?"));

@@ -58,7 +58,7 @@ TEST_F(SceneRefusals, NameTheKeyOfAContradiction) {
   expect("[[contact.recess]]\nheight_mm = [1, 0]\n",
          "height_mm: found 0 after 1, expected ascending values");
   expect("[[contact.recess]]\nheight_mm = [0, 2e4]\n",
-         "height_mm: found 20000, expected at least -10000 and at most 10000");
+         "height_mm: found 20000, expected a number at least -10000 and at most 10000");
   expect(recess + "angle_deg = [0, 400]\n", "angle_deg: found a span of 400, expected at most 360");
   expect(recess + "pressure_bar = 1\nfill = 0.5\n", "fill: found 0.5 under pressure, expected 1");
   expect(recess + "pressure_bar = -1\n", "pressure_bar: found -1, expected");
