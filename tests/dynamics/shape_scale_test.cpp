@@ -28,7 +28,7 @@ std::string shape(const std::string& kind, const std::string& scale) {
          scale;
 }
 
-class ShapeScale : public testing::SlapScenes {
+class ScaledShape : public testing::SlapScenes {
  protected:
   void SetUp() override {
     SlapScenes::SetUp();
@@ -42,7 +42,7 @@ class ShapeScale : public testing::SlapScenes {
   }
 };
 
-TEST_F(ShapeScale, OfAConstantTableIsTheShape) {
+TEST_F(ScaledShape, OfAConstantTableIsTheShape) {
   for (const char* kind : {"bore_shape", "skirt_shape"}) {
     const RowMatrix plain =
         recorded(scene(kFullFilm + shape(kind, "")), "plain").read_rows("bodies/piston/q");
@@ -53,7 +53,7 @@ TEST_F(ShapeScale, OfAConstantTableIsTheShape) {
   }
 }
 
-TEST_F(ShapeScale, WorksOnTheFilmWithinTheBalance) {
+TEST_F(ScaledShape, WorksOnTheFilmWithinTheBalance) {
   const RowMatrix plain = recorded(scene(kFullFilm), "plain").read_rows("bodies/piston/q");
   for (const char* kind : {"bore_shape", "skirt_shape"}) {
     for (const char* scale : {"scale_table = \"wave.csv\"\n", "scale = \"gas\"\nat_bar = 40\n"}) {
@@ -66,7 +66,7 @@ TEST_F(ShapeScale, WorksOnTheFilmWithinTheBalance) {
   }
 }
 
-TEST_F(ShapeScale, OfGasIsItsGaugePressureOverThatOfTheShape) {
+TEST_F(ScaledShape, OfGasIsItsGaugePressureOverThatOfTheShape) {
   const Scene described = scene(shape("bore_shape", "scale = \"gas\"\nat_bar = 20\n"));
   const auto model = build_model(described, load_bodies(described));
   const CylinderComponent& cylinder = testing::cylinder_of(*model);
@@ -84,7 +84,7 @@ TEST_F(ShapeScale, OfGasIsItsGaugePressureOverThatOfTheShape) {
   }
 }
 
-TEST_F(ShapeScale, IsRefusedByWhatIsWrong) {
+TEST_F(ScaledShape, IsRefusedByWhatIsWrong) {
   const auto expect = [&](const std::string& changes, const std::vector<std::string>& parts) {
     test::expect_parts(refusal(changes), parts);
   };

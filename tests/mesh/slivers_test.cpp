@@ -21,8 +21,8 @@ std::string sliver_toml(const std::filesystem::path& file, const std::string& ca
 }
 
 MadePart make_sliver_part(const std::string& toml) {
-  const Config config = Config::parse(toml, "part.toml");
-  return make_part_in_child({&config, config.text("name"), "part.toml", ""}, {});
+  const PartFile part = part_keys().read(Config::parse(toml, "part.toml"));
+  return make_part_in_child({&part, "part.toml", ""}, {});
 }
 
 TEST(HardG11Slivers, ARocketWithCuspsIsMeshedAndTheEffectOfItsSliversSaid) {

@@ -195,11 +195,11 @@ TEST(NastranModel, ShellsAreNotDroppedSilently) {
   const mesh::Mesh mesh = block({1, 2, 2}, {3.0, 4.0, 5.0}, CellType::kHex8);
   const Deck deck = read_deck(satellite(mesh), {"CBAR"});
   EXPECT_EQ(deck.mesh.surface("pid_300").face_count(), 4);
-  EXPECT_THAT(deck.notes,
-              testing::Contains(HasSubstr("4 CQUAD4: faces of solids, now the surface pid_300")));
   EXPECT_THAT(
       deck.notes,
-      testing::Contains(HasSubstr("PSHELL 300 gives stiffness to faces of solids, 0.1 thick")));
+      testing::Contains(testing::HasSubstr("4 CQUAD4: faces of solids, now the surface pid_300")));
+  EXPECT_THAT(deck.notes, testing::Contains(testing::HasSubstr(
+                              "PSHELL 300 gives stiffness to faces of solids, 0.1 thick")));
 }
 
 TEST(NastranModel, CubesOfAllKindsOfCells) {
