@@ -26,7 +26,8 @@ struct JointSpec {
   std::vector<std::filesystem::path> files;  // of its tables
 };
 
-/// Reads the table `key`; the default joint without it, as by an empty one. InputError "file:line: key: ...".
+/// Reads the table `key`; the default joint without it, as by an empty one. InputError "file:line:
+/// key: ...".
 JointSpec read_joint(const Config& tables, std::string_view key);
 /// Its keys.
 const keys::Table& joint_table();
