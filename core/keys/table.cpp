@@ -158,9 +158,16 @@ std::string Table::toml_of(const std::byte* object, const std::string& prefix) c
 }
 
 void Table::write_standards(const std::byte* standard) {
+  // One of a group: without it another one holds, and no default.
+  const auto is_alternative = [&](const Key& key) {
+    return std::any_of(alternatives_.begin(), alternatives_.end(), [&](const auto& group) {
+      return std::find(group.begin(), group.end(), key.name) != group.end();
+    });
+  };
   for (Key& key : keys_)
     if (key.written)
-      key.standard = key.has_standard() ? key.written(key, standard + key.offset) : "";
+      key.standard =
+          key.has_standard() && !is_alternative(key) ? key.written(key, standard + key.offset) : "";
 }
 
 }  // namespace clatter::keys
