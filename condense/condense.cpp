@@ -66,7 +66,6 @@ std::map<std::string, Eigen::VectorXd> reduced_loads(const fe::FeModel& model,
 void finish(const Config& config, CondenseOptions& options) {
   const std::vector<std::string>& boundary = options.boundary;
   ModeRequest& modes = options.modes;
-  if (boundary.empty()) config.fail("boundary", "found no set, expected one or more names");
   if (options.method != "guyan" && modes.count == 0 && modes.fmax_hz == 0.0 &&
       modes.accurate_to_hz == 0.0)
     config.fail("fmax_hz", "give fmax_hz, count or accurate_to_hz");

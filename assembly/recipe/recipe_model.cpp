@@ -11,7 +11,7 @@ namespace clatter::assembly {
 
 const keys::Keys<RegionMaterial>& RecipeKeys::material_keys() {
   const auto rows = [](auto& key, RegionMaterial& material) {
-    key.texts("regions", material.regions, "regions of the mesh that have it").required();
+    key.texts("regions", material.regions, "regions of the mesh that have it");
     key.part(material.material, fe::material_keys());
   };
   return keep<RegionMaterial>("material", "a material of some regions", rows);

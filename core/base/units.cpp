@@ -5,11 +5,20 @@
 #include <fmt/ranges.h>
 
 #include <array>
+#include <charconv>
+#include <cmath>
 
 #include "core/base/error.hpp"
 #include "core/base/unit_names.hpp"
 
 namespace clatter {
+
+double rounded(double value, int digits) {
+  if (!std::isfinite(value)) return value;
+  const std::string text = fmt::format("{:.{}g}", value, digits);
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
 namespace {
 
 constexpr double kInch = 25.4e-3;                // [m]

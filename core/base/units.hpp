@@ -10,6 +10,10 @@ namespace clatter {
 inline constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
 inline constexpr double kMilli = 1e-3, kMicro = 1e-6;
 
+/// The decimal number of so many significant digits next to a finite value, whatever the language
+/// of the application (hard case P13): 0.00004 / 1e-6 to 15 digits is 40.
+double rounded(double value, int digits);
+
 /// A consistent system: forces are mass * length / time^2.
 struct UnitSystem {
   std::string name = "m-kg-s";

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/dense/symmetric_eigen.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include "core/dense/lapack_call.hpp"
 
 namespace clatter::dense {
@@ -25,10 +27,25 @@ Eigenpairs solve(Eigen::MatrixXd A, bool finite, EigenParts parts, Driver&& driv
   return out;
 }
 
+/// Up to this size the QR iteration is as fast as LAPACK, whose last bits depend on BLAS's threads.
+constexpr Eigen::Index kSmall = 64;
+
+Eigenpairs small_eigen(const Eigen::MatrixXd& A, EigenParts parts) {
+  const bool wanted = parts == EigenParts::kVectors;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      A, wanted ? Eigen::ComputeEigenvectors : Eigen::EigenvaluesOnly);
+  Eigenpairs out;
+  out.values = eigen.eigenvalues();
+  if (wanted) out.vectors = eigen.eigenvectors();
+  out.ok = eigen.info() == Eigen::Success;
+  return out;
+}
+
 }  // namespace
 
 Eigenpairs symmetric_eigen(Eigen::MatrixXd A, EigenParts parts) {
   const bool finite = A.allFinite();
+  if (finite && A.rows() > 0 && A.rows() <= kSmall) return small_eigen(A, parts);
   return solve(std::move(A), finite, parts, [](char job, int n, Eigenpairs& out, int& info) {
     with_workspaces([&](double* work, const int* lwork, int* iwork, const int* liwork) {
       LAPACK_dsyevd(&job, "L", &n, out.vectors.data(), &n, out.values.data(), work, lwork, iwork,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Eigenvalues of dense symmetric matrices by LAPACK, with all BLAS threads.
+// Eigenvalues of dense symmetric matrices by LAPACK, with all BLAS threads; small ones by Eigen.
 #include <Eigen/Core>
 
 namespace clatter::dense {
@@ -14,7 +14,8 @@ struct Eigenpairs {
 
 enum class EigenParts { kValues, kVectors };
 
-/// Divide and conquer (LAPACK dsyevd). Reads the lower triangle of A, n x n.
+/// Divide and conquer (LAPACK dsyevd), up to 64 rows the QR iteration, whose bits do not depend on
+/// the number of threads. Reads the lower triangle of A, n x n.
 Eigenpairs symmetric_eigen(Eigen::MatrixXd A, EigenParts parts = EigenParts::kVectors);
 
 /// The same for the pencil (A, B), B positive definite (LAPACK dsygvd).

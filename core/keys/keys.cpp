@@ -32,8 +32,7 @@ double in_si(double value, const KeyUnit& unit, const Config& table) {
 
 // To 15 digits: 4e-5 m is 40 um, not 39.99999999999999.
 double in_unit(double value, const KeyUnit& unit, double metre = 1.0) {
-  const double exact = (value - unit.offset) / (unit.of_file ? metre * unit.scale : unit.scale);
-  return std::isfinite(exact) ? std::stod(fmt::format("{:.15g}", exact)) : exact;
+  return rounded((value - unit.offset) / (unit.of_file ? metre * unit.scale : unit.scale), 15);
 }
 
 std::string quoted(const std::string& text) { return "\"" + text + "\""; }
@@ -453,7 +452,8 @@ Row Rows::texts(std::string name, std::vector<std::string>& at, std::string mean
   key.read = [](const Key& row, const Config& table, std::byte* bytes) {
     auto& values = member<std::vector<std::string>>(bytes);
     values = row.required ? table.texts(row.name) : read_choices(row, table, values);
-    if (row.required && values.empty()) table.fail(row.name, "found none, expected a text");
+    if (row.required && values.empty())
+      table.fail(row.name, "found none, expected one or more names");
   };
   key.written = [](const Key&, const std::byte* bytes) {
     return in_toml(member<std::vector<std::string>>(bytes));

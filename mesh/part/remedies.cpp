@@ -12,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/base/units.hpp"
 #include "mesh/cad/gmsh_small_features.hpp"
 #include "mesh/part/mesh_wire.hpp"
 
@@ -106,7 +107,7 @@ std::optional<int64_t> cells_with(const PartJob& job, const Remedy& remedy,
   }
 }
 
-double two_digits(double value) { return std::stod(fmt::format("{:.2g}", value)); }
+double two_digits(double value) { return rounded(value, 2); }
 
 /// A width just above the narrowest faces and those of about their width; 0 without narrow faces.
 double narrow_width(const std::vector<SmallFeature>& faces) {

@@ -157,7 +157,7 @@ TEST(LoadCase, AFieldOfAccelerationsActsThroughTheMassMatrix) {
   test::expect_parts(test::refusal_of([&] {
                        build(mesh, load("a", "field = \"all\"\ndirection = [1.0, 0.0, 0.0]"));
                      }),
-                     {"field: direction and field exclude each other"});
+                     {"field: field and direction exclude each other"});
 }
 
 TEST(LoadCase, ForceAndMomentOnAReferenceNodeAreItsCoordinatesForces) {

@@ -235,10 +235,10 @@ TEST_F(PointTableFile, ThatIsWrongIsRefusedWithTheWayOut) {
   write("x,y,z,coefficient,temperature_c\n0,0,0,50,-300\n");
   test::expect_parts(refused(film), {"found -300 degrees Celsius, expected at least -273.15"});
   test::expect_parts(refused(film + "coefficient = 5.0\n"),
-                     {"coefficient: table and coefficient exclude each other"});
+                     {"table: coefficient and table exclude each other"});
   test::expect_parts(refused(kIron + "[[heat]]\nname = \"w\"\n[[heat.flux]]\nsurface = \"z0\"\n"
                                      "flux = 1.0\ntable = \"x.csv\"\n"),
-                     {"flux: table and flux exclude each other"});
+                     {"table: flux and table exclude each other"});
 }
 
 }  // namespace

@@ -59,8 +59,7 @@ TEST(Recipe, KeysThatDoNotGoTogetherAreRefusedWithTheReason) {
           "part.fe.toml:10: load[0].surface: needs kind = \"pressure\" or \"resultant\" or "
           "\"displacement\"");
   refused(load + "kind = \"acceleration\"\n",
-          "part.fe.toml:6: load[0].direction: is missing, kind = \"resultant\" or \"gravity\" "
-          "needs it");
+          "part.fe.toml:6: load[0].direction: is missing, an acceleration needs it, or field");
   refused("[[support]]\nsurface = \"z0\"\nnode_set = \"all\"\n",
           "part.fe.toml:8: support[0].node_set: surface and node_set exclude each other");
   refused("[[support]]\ndirections = \"x\"\n",

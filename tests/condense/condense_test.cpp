@@ -291,7 +291,7 @@ TEST(BadInput, InvalidOptionsAreRefused) {
       test::refusal_of([&] { parse("boundary = [\"left\"]\nfmax_hz = 10.0\ncount = 4\n"); }),
       {"box.rom.toml:2: fmax_hz: fmax_hz and count exclude each other"});
   test::expect_parts(test::refusal_of([&] { parse("boundary = []\nfmax_hz = 10.0\n"); }),
-                     {"box.rom.toml:1: boundary: found no set, expected one or more names"});
+                     {"box.rom.toml:1: boundary: found none, expected one or more names"});
   test::expect_parts(
       test::refusal_of([&] { parse("boundary = [\"left\"]\nmethod = \"guyan\"\ncount = 4\n"); }),
       {"box.rom.toml:3: count: needs method = \"craig-bampton\" or \"craig-chang\": guyan has no "

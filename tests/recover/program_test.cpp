@@ -88,7 +88,10 @@ TEST_F(Program, AveragedPowersAreThoseOfScipy) {
 
 TEST_F(Program, HelpTeachesTheConfiguration) {
   EXPECT_EQ(recover("--help"), 0);
-  for (const char* word : {"[[panel]]", "[[window]]", "clatter-recover slap.run.h5", "taper"})
+  for (const char* word : {"clatter-recover slap.run.h5", "clatter-recover keys"})
+    EXPECT_NE(output_.find(word), std::string::npos) << word;
+  EXPECT_EQ(recover("keys field.toml"), 0) << output_;
+  for (const char* word : {"[[panel]]", "[[window]]", "taper"})
     EXPECT_NE(output_.find(word), std::string::npos) << word;
 }
 
@@ -173,7 +176,9 @@ TEST_F(Program, SoundOfAPartIsUsedByARun) {
             std::string::npos)
       << output_;
   ASSERT_EQ(recover("sound --help"), 0);
-  for (const char* word : {"[[microphone]]", "[ground]", "tolerance_db", "block.sound.h5"})
+  EXPECT_NE(output_.find("block.sound.h5"), std::string::npos) << output_;
+  ASSERT_EQ(recover("keys sound.toml"), 0) << output_;
+  for (const char* word : {"[[microphone]]", "[ground]", "tolerance_db"})
     EXPECT_NE(output_.find(word), std::string::npos) << word;
 }
 

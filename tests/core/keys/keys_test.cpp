@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/base/error.hpp"
 #include "core/keys/describe.hpp"
 
@@ -118,6 +120,13 @@ TEST(Keys, ValuesAreSiAndDefaultsAreTheStructs) {
   EXPECT_DOUBLE_EQ(contact.rings[1].height, 3e-3);
   EXPECT_DOUBLE_EQ(contact.gap, 0.0535 - 40e-6);
   EXPECT_FALSE(contact.stiffness);
+}
+
+TEST(Rounded, IsTheDecimalNumberInAnyLanguage) {
+  EXPECT_EQ(rounded(4e-5 / 1e-6, 15), 40.0);
+  EXPECT_EQ(rounded(-0.0123456, 2), -0.012);
+  EXPECT_EQ(rounded(0.0, 3), 0.0);
+  EXPECT_TRUE(std::isnan(rounded(std::nan(""), 15)));
 }
 
 TEST(Keys, ADefaultGivesTheSameBitsWhetherItIsWrittenOrNot) {
