@@ -5,7 +5,7 @@
 //   i ENS_MAA/a/-1/MAI/TE4/NOD 1 2 3 4     integers
 //   d ENS_MAA/a/-1/NOE/COO 0 0 0           floating-point numbers
 //   n FAS/a/ELEME/f/GRO/NOM body foot      names of 80 bytes
-//   a ENS_MAA/a ESP 3                      integer attribute
+//   a ENS_MAA/a ESP 3                      integer attribute of what a line before made
 #include <unistd.h>
 
 #include <cstddef>
