@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/dense/symmetric_eigen.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include "core/dense/lapack_call.hpp"
@@ -30,13 +31,15 @@ Eigenpairs solve(Eigen::MatrixXd A, bool finite, EigenParts parts, Driver&& driv
 /// Up to this size the QR iteration is as fast as LAPACK, whose last bits depend on BLAS's threads.
 constexpr Eigen::Index kSmall = 64;
 
-Eigenpairs small_eigen(const Eigen::MatrixXd& A, EigenParts parts) {
-  const bool wanted = parts == EigenParts::kVectors;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      A, wanted ? Eigen::ComputeEigenvectors : Eigen::EigenvaluesOnly);
+int requested(EigenParts parts) {
+  return parts == EigenParts::kVectors ? Eigen::ComputeEigenvectors : Eigen::EigenvaluesOnly;
+}
+
+template <class Solver>
+Eigenpairs pairs_of(const Solver& eigen, EigenParts parts) {
   Eigenpairs out;
   out.values = eigen.eigenvalues();
-  if (wanted) out.vectors = eigen.eigenvectors();
+  if (parts == EigenParts::kVectors) out.vectors = eigen.eigenvectors();
   out.ok = eigen.info() == Eigen::Success;
   return out;
 }
@@ -45,7 +48,8 @@ Eigenpairs small_eigen(const Eigen::MatrixXd& A, EigenParts parts) {
 
 Eigenpairs symmetric_eigen(Eigen::MatrixXd A, EigenParts parts) {
   const bool finite = A.allFinite();
-  if (finite && A.rows() > 0 && A.rows() <= kSmall) return small_eigen(A, parts);
+  if (finite && A.rows() > 0 && A.rows() <= kSmall)
+    return pairs_of(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, requested(parts)), parts);
   return solve(std::move(A), finite, parts, [](char job, int n, Eigenpairs& out, int& info) {
     with_workspaces([&](double* work, const int* lwork, int* iwork, const int* liwork) {
       LAPACK_dsyevd(&job, "L", &n, out.vectors.data(), &n, out.values.data(), work, lwork, iwork,
@@ -56,6 +60,10 @@ Eigenpairs symmetric_eigen(Eigen::MatrixXd A, EigenParts parts) {
 
 Eigenpairs symmetric_eigen(Eigen::MatrixXd A, Eigen::MatrixXd B, EigenParts parts) {
   const bool finite = A.allFinite() && B.allFinite();
+  if (finite && A.rows() > 0 && A.rows() <= kSmall && B.llt().info() == Eigen::Success)
+    return pairs_of(Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(
+                        A, B, requested(parts) | Eigen::Ax_lBx),
+                    parts);
   return solve(std::move(A), finite, parts, [&](char job, int n, Eigenpairs& out, int& info) {
     const int type = 1;
     with_workspaces([&](double* work, const int* lwork, int* iwork, const int* liwork) {
