@@ -107,7 +107,7 @@ class WrongContent(stages.PipelineTest):
         (self.folder / "beam.mesh.toml").write_text(
             'name = "tube"\nkind = "cylinder"\nlength_unit = "mm"\n[cylinder]\nradius = 10.0\ninner_radius = 9.9\n'
             "length = 30.0\n[mesh]\nelement_size_mm = 20.0\n")
-        self.assert_refused("mesh", code=3, says=["mesh", "tried in vain", "smallest features"])
+        self.assert_refused("mesh", code=3, says=["mesh", "element_size_mm = 2.9", "smallest features"])
 
     def test_a_region_without_material(self):
         self.edit("beam.fe.toml", 'regions = ["bar"]', "regions = []")
