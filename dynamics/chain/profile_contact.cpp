@@ -89,7 +89,7 @@ void ProfileContact::find_reach() {
 }
 
 void ProfileContact::move(double time, const VectorXd& y, const VectorXd& v, Motion& motion) const {
-  const Port& port = *carrier_.port;
+  Port& port = *carrier_.port;
   const PlaneAxes& plane = carrier_.plane;
   y_port_ = y.tail(port.size());
   v_port_ = v.tail(port.size());
@@ -113,10 +113,7 @@ void ProfileContact::move(double time, const VectorXd& y, const VectorXd& v, Mot
     three.row(1).noalias() = f.transpose() * six.topRows<3>();
     three.row(2).noalias() = normal.transpose() * six.bottomRows<3>();
   };
-  if (port.is_driven()) {
-    const Vector6 driven = port.driven(at_);
-    motion.driven << flat(driven.head<3>()), driven.tail<3>().dot(normal);
-  }
+  motion.driven << flat(at_.driven.head<3>()), at_.driven.tail<3>().dot(normal);
   planar(at_.by_y, motion.by_y);
   planar(at_.rate_by_y, motion.rate_by_y);
   planar(at_.rate_by_v, motion.rate_by_v);
@@ -242,7 +239,7 @@ void ProfileContact::add_forces(int link, const Motion& motion, const Relative& 
   const Vector3d reaction(-force.x(), -force.y(), -contact.wrench(2) - arm);
   response.force.tail(carrier_.port->size()).noalias() += motion.work.transpose() * reaction;
   last_.force -= force;
-  if (carrier_.port->is_driven()) last_.input -= reaction.dot(motion.driven);
+  last_.input -= reaction.dot(motion.driven);
   last_.depth = std::max(last_.depth, contact.depth);
   last_.stored += contact.stored;
   last_.lost += contact.lost;

@@ -25,26 +25,22 @@ CrankPort::CrankPort(std::vector<int> coordinates, double x, double arm, CrankCl
       clock_(std::move(clock)),
       rotation_(rotation) {}
 
-void CrankPort::motion(double time, const VectorXd& y, const VectorXd& v, PortState& state) const {
+void CrankPort::motion(double time, const VectorXd& y, const VectorXd& v, PortState& state) {
   const Motion<double> turn = turn_about_x(clock_, rotation_, time);
-  spin_ = turn.velocity;
+  state.clear(size());
+  state.driven(3) = turn.velocity;
   const bool is_free = size() == 5;
   const double more = is_free ? y(4) : 0.0, rate = is_free ? v(4) : 0.0;
   state.position = {x_, y(0) + y(3) * arm_, y(1) - y(2) * arm_};
   state.velocity = {0.0, v(0) + v(3) * arm_, v(1) - v(2) * arm_};
-  state.spin = {spin_ + rate, v(2), v(3)};
+  state.spin = {turn.velocity + rate, v(2), v(3)};
   state.rotation = (Eigen::Matrix3d::Identity() + skew(Vector3d(0.0, y(2), y(3)))) *
                    Eigen::AngleAxisd(turn.position + more, Vector3d::UnitX());
-  for (Matrix6X* matrix : {&state.by_y, &state.rate_by_y}) matrix->setZero(6, size());
   state.by_y(1, 0) = state.by_y(2, 1) = state.by_y(4, 2) = state.by_y(5, 3) = 1.0;
   state.by_y(1, 3) = arm_;
   state.by_y(2, 2) = -arm_;
   if (is_free) state.by_y(3, 4) = 1.0;
   state.rate_by_v = state.work = state.by_y;
-}
-
-Vector6 CrankPort::driven(const PortState&) const {
-  return wrench(Vector3d::Zero(), spin_ * Vector3d::UnitX());
 }
 
 }  // namespace clatter::dynamics

@@ -23,15 +23,13 @@ class CrankPort : public Port {
   CrankPort(std::vector<int> coordinates, double x, double arm, CrankClock clock,
             Rotation rotation);
   void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
-              PortState& state) const override;
+              PortState& state) override;
   bool is_driven() const override { return true; }
-  Vector6 driven(const PortState& at) const override;
 
  private:
   double x_, arm_;
   CrankClock clock_;
   Rotation rotation_;
-  mutable double spin_ = 0.0;  // of the clock, at the last motion()
 };
 
 }  // namespace clatter::dynamics

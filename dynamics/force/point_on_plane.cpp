@@ -97,13 +97,8 @@ Matrix3d PointOnPlane::mobility(const Mobility& of) const {
 }
 
 double PointOnPlane::input(const Vector3d& force) const {
-  double power = 0.0;
-  if (a_->is_driven()) power -= a_->driven(at_a_).head<3>().dot(force);
-  if (b_->is_driven()) {
-    const Vector6 driven = b_->driven(at_b_);
-    power += driven.head<3>().dot(force) + driven.tail<3>().dot(at_.distance.cross(force));
-  }
-  return power;
+  return at_b_.driven.dot(wrench(force, at_.distance.cross(force))) -
+         at_a_.driven.head<3>().dot(force);
 }
 
 }  // namespace clatter::dynamics

@@ -13,23 +13,18 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-namespace {
-
-void clear(PortState& state, int size) {
-  for (Matrix6X* matrix : {&state.by_y, &state.rate_by_y, &state.rate_by_v, &state.work})
-    matrix->setZero(6, size);
+void PortState::clear(int n) {
+  position.setZero();
+  velocity.setZero();
+  spin.setZero();
+  rotation.setIdentity();
+  driven.setZero();
+  for (Matrix6X* matrix : {&by_y, &rate_by_y, &rate_by_v, &work}) matrix->setZero(6, n);
 }
 
-}  // namespace
-
-Vector6 Port::driven(const PortState& at) const { return wrench(at.velocity, at.spin); }
-
-void GroundPort::motion(double, const VectorXd&, const VectorXd&, PortState& state) const {
-  clear(state, 0);
+void GroundPort::motion(double, const VectorXd&, const VectorXd&, PortState& state) {
+  state.clear(0);
   state.position = position_;
-  state.velocity.setZero();
-  state.spin.setZero();
-  state.rotation.setIdentity();
 }
 
 DrivenPort::DrivenPort(Drive drive, const Vector3d& centre, const Vector3d& arm,
@@ -41,53 +36,50 @@ DrivenPort::DrivenPort(Drive drive, const Vector3d& centre, const Vector3d& arm,
       axis_(axis),
       bearing_(std::move(bearing)) {}
 
-void DrivenPort::motion(double time, const VectorXd& y, const VectorXd& v, PortState& state) const {
-  clear(state, size());
+void DrivenPort::motion(double time, const VectorXd& y, const VectorXd& v, PortState& state) {
+  state.clear(size());
   const Motion<double> turn = drive_.at(time);
   state.rotation = Eigen::AngleAxisd(turn.position, axis_).toRotationMatrix();
-  out_ = state.rotation * arm_;
-  spin_ = turn.velocity * axis_;
-  state.position = centre_ + out_;
-  state.spin = spin_;
-  state.velocity = spin_.cross(out_);
-  if (bearing_) add_bearing(y, v, state);
+  const Vector3d out = state.rotation * arm_;
+  state.position = centre_ + out;
+  state.spin = turn.velocity * axis_;
+  state.velocity = state.spin.cross(out);
+  state.driven = wrench(state.velocity, state.spin);
+  if (bearing_) add_bearing(y, v, out, state);
 }
 
 /// The shaft follows its bearing, with the centre c of the shaft as it is on the bearing's body, in
 /// all but the rotation about its axis a, which is the drive's: a force F at p and a moment M act
 /// on the bearing as F at c and (1 - a a^T) ((p - c) x F + M).
-void DrivenPort::add_bearing(const VectorXd& y, const VectorXd& v, PortState& state) const {
+void DrivenPort::add_bearing(const VectorXd& y, const VectorXd& v, const Vector3d& out,
+                             PortState& state) {
   bearing_->motion(0.0, y, v, at_bearing_);
   const Vector3d centre = centre_ - bearing_->place();
   const Eigen::Matrix3d held = Eigen::Matrix3d::Identity() - axis_ * axis_.transpose();
   const Eigen::Matrix3d turn = at_bearing_.rotation - Eigen::Matrix3d::Identity();
   const Vector3d turned(turn(2, 1), turn(0, 2), turn(1, 0)), tilted = held * turned;
   state.position +=
-      at_bearing_.position - bearing_->place() + turned.cross(centre) + tilted.cross(out_);
+      at_bearing_.position - bearing_->place() + turned.cross(centre) + tilted.cross(out);
   state.rotation += skew(tilted) * state.rotation;
   const Vector3d spin = held * at_bearing_.spin;
-  state.velocity += at_bearing_.velocity + at_bearing_.spin.cross(centre) + spin.cross(out_);
+  state.velocity += at_bearing_.velocity + at_bearing_.spin.cross(centre) + spin.cross(out);
   state.spin += spin;
   for (int j = 0; j < size(); ++j) {
     const Vector3d by_turn = at_bearing_.by_y.col(j).tail<3>(), by_tilt = held * by_turn;
     state.by_y.col(j) << at_bearing_.by_y.col(j).head<3>() + by_turn.cross(centre) +
-                             by_tilt.cross(out_),
+                             by_tilt.cross(out),
         by_tilt;
   }
   state.rate_by_v = state.work = state.by_y;
 }
 
-Vector6 DrivenPort::driven(const PortState&) const { return wrench(spin_.cross(out_), spin_); }
-
 NodePort::NodePort(const Vector3d& position, std::vector<int> coordinates)
     : Port(std::move(coordinates)), position_(position) {}
 
-void NodePort::motion(double, const VectorXd& y, const VectorXd& v, PortState& state) const {
-  clear(state, size());
+void NodePort::motion(double, const VectorXd& y, const VectorXd& v, PortState& state) {
+  state.clear(size());
   state.position = position_ + y.head<3>();
   state.velocity = v.head<3>();
-  state.spin.setZero();
-  state.rotation.setIdentity();
   if (size() == 6) {
     state.spin = v.tail<3>();
     state.rotation += skew(y.tail<3>());
@@ -107,28 +99,24 @@ TurningNodePort::TurningNodePort(Drive shaft, const Vector3d& centre, const Vect
       start_(start) {}
 
 void TurningNodePort::motion(double time, const VectorXd& y, const VectorXd& v,
-                             PortState& state) const {
-  clear(state, size());
+                             PortState& state) {
+  state.clear(size());
   const Motion<double> turn = shaft_.at(time);
   const Eigen::Matrix3d R = Eigen::AngleAxisd(turn.position - start_, axis_).toRotationMatrix();
-  spin_ = turn.velocity * axis_;
-  const Vector3d out = R * (arm_ + y.head<3>());
+  const Vector3d spin = turn.velocity * axis_, out = R * (arm_ + y.head<3>());
   state.position = centre_ + out;
-  state.velocity = spin_.cross(out) + R * v.head<3>();
-  state.spin = spin_;
+  state.driven = wrench(spin.cross(out), spin);
+  state.velocity = spin.cross(out) + R * v.head<3>();
+  state.spin = spin;
   state.rotation = R;
   state.by_y.topLeftCorner<3, 3>() = R;
-  state.rate_by_y.topLeftCorner<3, 3>() = skew(spin_) * R;
+  state.rate_by_y.topLeftCorner<3, 3>() = skew(spin) * R;
   if (size() == 6) {
     state.spin += R * v.tail<3>();
     state.rotation += R * skew(y.tail<3>());
     state.by_y.bottomRightCorner<3, 3>() = R;
   }
   state.rate_by_v = state.work = state.by_y;
-}
-
-Vector6 TurningNodePort::driven(const PortState& at) const {
-  return wrench(spin_.cross(at.position - centre_), spin_);
 }
 
 PlanarPort::PlanarPort(std::vector<int> coordinates, const Vector2d& arm, const PlaneAxes& plane)
@@ -139,8 +127,8 @@ Vector3d PlanarPort::turned(const Vector2d& arm, double angle) const {
   return (c * arm.x() - s * arm.y()) * plane_.first + (s * arm.x() + c * arm.y()) * plane_.second;
 }
 
-void PlanarPort::motion(double, const VectorXd& y, const VectorXd& v, PortState& state) const {
-  clear(state, 3);
+void PlanarPort::motion(double, const VectorXd& y, const VectorXd& v, PortState& state) {
+  state.clear(3);
   const Vector3d normal = plane_.first.cross(plane_.second), arm = turned(arm_, y(2));
   const Vector3d across = normal.cross(arm);
   state.position = plane_.origin + y(0) * plane_.first + y(1) * plane_.second + arm;
@@ -156,7 +144,7 @@ void PlanarPort::motion(double, const VectorXd& y, const VectorXd& v, PortState&
 }
 
 void PlanarPort::add_curvature(const VectorXd& y, const Vector6& wrench,
-                               Eigen::Ref<Eigen::MatrixXd> tangent) const {
+                               Eigen::Ref<Eigen::MatrixXd> tangent) {
   tangent(2, 2) -= turned(arm_, y(2)).dot(wrench.head<3>());
 }
 
@@ -172,12 +160,12 @@ SlidePort::SlidePort(int coordinate, const Vector3d& axis, const Vector3d& start
   coordinates_.insert(coordinates_.end(), more.begin(), more.end());
 }
 
-void SlidePort::motion(double time, const VectorXd& y, const VectorXd& v, PortState& state) const {
+void SlidePort::motion(double time, const VectorXd& y, const VectorXd& v, PortState& state) {
   const int n = guide_->size();
   guide_y_ = y.tail(n);
   guide_v_ = v.tail(n);
   guide_->motion(time, guide_y_, guide_v_, at_guide_);
-  clear(state, size());
+  state.clear(size());
   state.position = start_ + y(0) * axis_ + across_ * (at_guide_.position - guide_start_);
   state.velocity = v(0) * axis_ + across_ * at_guide_.velocity;
   state.spin = at_guide_.spin;
@@ -197,7 +185,7 @@ void SlidePort::motion(double time, const VectorXd& y, const VectorXd& v, PortSt
 }
 
 void SlidePort::add_curvature(const VectorXd& y, const Vector6& wrench,
-                              Eigen::Ref<Eigen::MatrixXd> tangent) const {
+                              Eigen::Ref<Eigen::MatrixXd> tangent) {
   const int n = guide_->size();
   guide_y_ = y.tail(n);
   Vector6 on_guide = wrench;

@@ -28,6 +28,10 @@ struct PortState {
   Matrix6X by_y;                       // d(position, rotation)/dy
   Matrix6X rate_by_y, rate_by_v;       // d(velocity, spin)/dy, /dv
   Matrix6X work;                       // force on the coordinates = work^T (force, moment)
+  Vector6 driven;                      // prescribed part of (velocity, spin): its drive's work
+
+  /// Zero motion of a port with n coordinates.
+  void clear(int n);
 };
 
 /// A point, with the axes of its body, at which elements apply force and moment.
@@ -36,16 +40,15 @@ class Port {
   virtual ~Port() = default;
   const std::vector<int>& coordinates() const { return coordinates_; }
   int size() const { return static_cast<int>(coordinates_.size()); }
-  /// `y`, `v`: n_p displacements and velocities (rates, for states).
+  /// Writes all of `state`; `y`, `v`: n_p displacements and velocities (rates, for states).
   virtual void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
-                      PortState& state) const = 0;
+                      PortState& state) = 0;
   /// It moves as prescribed: forces on it do work on what drives it.
   virtual bool is_driven() const { return false; }
-  /// The prescribed part of the velocity and angular velocity at a state of a driven port.
-  virtual Vector6 driven(const PortState& at) const;
-  /// tangent += d(work^T wrench)/dy at a constant wrench (force, moment), n_p x n_p.
+  /// tangent += d(work^T wrench)/dy at the last motion(), of `y`, and a constant wrench (force,
+  /// moment), n_p x n_p.
   virtual void add_curvature(const Eigen::VectorXd& /*y*/, const Vector6& /*wrench*/,
-                             Eigen::Ref<Eigen::MatrixXd> /*tangent*/) const {}
+                             Eigen::Ref<Eigen::MatrixXd> /*tangent*/) {}
 
  protected:
   explicit Port(std::vector<int> coordinates) : coordinates_(std::move(coordinates)) {}
@@ -57,7 +60,7 @@ class GroundPort : public Port {
  public:
   explicit GroundPort(const Eigen::Vector3d& position) : Port({}), position_(position) {}
   void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
-              PortState& state) const override;
+              PortState& state) override;
 
  private:
   Eigen::Vector3d position_;
@@ -70,7 +73,7 @@ class NodePort : public Port {
   /// node that rotates, rx, ry, rz.
   NodePort(const Eigen::Vector3d& position, std::vector<int> coordinates);
   void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
-              PortState& state) const override;
+              PortState& state) override;
   const Eigen::Vector3d& place() const { return position_; }
 
  private:
@@ -89,17 +92,16 @@ class DrivenPort : public Port {
   DrivenPort(Drive drive, const Eigen::Vector3d& centre, const Eigen::Vector3d& arm,
              const Eigen::Vector3d& axis, std::unique_ptr<NodePort> bearing = nullptr);
   void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
-              PortState& state) const override;
+              PortState& state) override;
   bool is_driven() const override { return true; }
-  Vector6 driven(const PortState& at) const override;
 
  private:
-  void add_bearing(const Eigen::VectorXd& y, const Eigen::VectorXd& v, PortState& state) const;
+  void add_bearing(const Eigen::VectorXd& y, const Eigen::VectorXd& v, const Eigen::Vector3d& out,
+                   PortState& state);
   Drive drive_;
   Eigen::Vector3d centre_, arm_, axis_;
   std::unique_ptr<NodePort> bearing_;
-  mutable Eigen::Vector3d spin_ = Eigen::Vector3d::Zero(), out_ = spin_;  // at the last motion()
-  mutable PortState at_bearing_;
+  PortState at_bearing_;
 };
 
 /// A node of a body with small motion in a frame that a drive turns.
@@ -112,15 +114,13 @@ class TurningNodePort : public Port {
   TurningNodePort(Drive shaft, const Eigen::Vector3d& centre, const Eigen::Vector3d& axis,
                   double start, const Eigen::Vector3d& position, std::vector<int> coordinates);
   void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
-              PortState& state) const override;
+              PortState& state) override;
   bool is_driven() const override { return true; }
-  Vector6 driven(const PortState& at) const override;
 
  private:
   Drive shaft_;
   Eigen::Vector3d centre_, axis_, arm_;
   double start_;
-  mutable Eigen::Vector3d spin_ = Eigen::Vector3d::Zero();  // of the frame, at the last motion()
 };
 
 /// The plane in which a planar body moves.
@@ -136,9 +136,9 @@ class PlanarPort : public Port {
   /// axes [m].
   PlanarPort(std::vector<int> coordinates, const Eigen::Vector2d& arm, const PlaneAxes& plane = {});
   void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
-              PortState& state) const override;
+              PortState& state) override;
   void add_curvature(const Eigen::VectorXd& y, const Vector6& wrench,
-                     Eigen::Ref<Eigen::MatrixXd> tangent) const override;
+                     Eigen::Ref<Eigen::MatrixXd> tangent) override;
 
  private:
   /// A vector of the body in the engine's axes.
@@ -158,16 +158,16 @@ class SlidePort : public Port {
   SlidePort(int coordinate, const Eigen::Vector3d& axis, const Eigen::Vector3d& start,
             std::unique_ptr<Port> guide, const Eigen::Vector3d& guide_start);
   void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
-              PortState& state) const override;
+              PortState& state) override;
   void add_curvature(const Eigen::VectorXd& y, const Vector6& wrench,
-                     Eigen::Ref<Eigen::MatrixXd> tangent) const override;
+                     Eigen::Ref<Eigen::MatrixXd> tangent) override;
 
  private:
   Eigen::Vector3d axis_, start_, guide_start_;
   Eigen::Matrix3d across_;  // removes the part along the axis
   std::unique_ptr<Port> guide_;
-  mutable PortState at_guide_;
-  mutable Eigen::VectorXd guide_y_, guide_v_;
+  PortState at_guide_;  // of the last motion()
+  Eigen::VectorXd guide_y_, guide_v_;
 };
 
 }  // namespace clatter::dynamics

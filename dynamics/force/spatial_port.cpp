@@ -28,10 +28,9 @@ SpatialPort::SpatialPort(std::vector<int> coordinates, std::shared_ptr<const Spa
       slope_(or_none(std::move(slope), frame_->modes())) {}
 
 void SpatialPort::motion(double time, const VectorXd& y, const VectorXd& v,
-                         PortState& state) const {
+                         PortState& state) {
   const int n = frame_->modes();
-  for (Matrix6X* matrix : {&state.by_y, &state.rate_by_y, &state.rate_by_v, &state.work})
-    matrix->setZero(6, size());
+  state.clear(size());
   frame_->rotate(time, y, v, at_);
   frame_->differentiate(y, at_);
   const Matrix3d& A = at_.A;
@@ -76,7 +75,7 @@ void SpatialPort::motion(double time, const VectorXd& y, const VectorXd& v,
 }
 
 void SpatialPort::add_curvature(const VectorXd&, const Vector6& wrench,
-                                Eigen::Ref<Eigen::MatrixXd> tangent) const {
+                                Eigen::Ref<Eigen::MatrixXd> tangent) {
   const int n = frame_->modes();
   const Matrix3d pull = skew(wrench.head<3>()), turn = skew(wrench.tail<3>());
   const Matrix3d back = at_.A.transpose();

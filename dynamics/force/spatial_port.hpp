@@ -19,16 +19,16 @@ class SpatialPort : public Port {
   SpatialPort(std::vector<int> coordinates, std::shared_ptr<const SpatialFrame> frame,
               const Eigen::Vector3d& arm, Matrix3X shape = {}, Matrix3X slope = {});
   void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
-              PortState& state) const override;
+              PortState& state) override;
   void add_curvature(const Eigen::VectorXd& y, const Vector6& wrench,
-                     Eigen::Ref<Eigen::MatrixXd> tangent) const override;
+                     Eigen::Ref<Eigen::MatrixXd> tangent) override;
 
  private:
   std::shared_ptr<const SpatialFrame> frame_;
   Eigen::Vector3d arm_;
   Matrix3X shape_, slope_;
-  mutable SpatialState at_;      // of the last motion()
-  mutable Eigen::Vector3d out_;  // there: from the centre of mass, in the engine's axes
+  SpatialState at_;      // of the last motion()
+  Eigen::Vector3d out_;  // there: from the centre of mass, in the engine's axes
 };
 
 }  // namespace clatter::dynamics

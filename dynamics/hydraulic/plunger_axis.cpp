@@ -9,16 +9,6 @@ namespace clatter::dynamics {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-namespace {
-
-Vector6 force_and_moment(const Vector3d& force, const Vector3d& moment) {
-  Vector6 both;
-  both << force, moment;
-  return both;
-}
-
-}  // namespace
-
 PlungerAxis::PlungerAxis(std::unique_ptr<Port> housing, std::unique_ptr<Port> plunger,
                          const Vector3d& axis, double offset)
     : housing_(std::move(housing)), plunger_(std::move(plunger)), axis_(axis), offset_(offset) {}
@@ -42,8 +32,8 @@ void PlungerAxis::move(double time, const VectorXd& y, const VectorXd& v) {
   const Vector3d arm = distance_.cross(turned_);
   travel_ = turned_.dot(distance_) - offset_;
   rate_ = turned_.dot(at_plunger_.velocity - at_housing_.velocity) - arm.dot(at_housing_.spin);
-  const Vector6 on_plunger = force_and_moment(turned_, Vector3d::Zero());
-  const Vector6 on_housing = force_and_moment(-turned_, -arm);
+  const Vector6 on_plunger = wrench(turned_, Vector3d::Zero());
+  const Vector6 on_housing = wrench(-turned_, -arm);
   direction_.resize(n_a + n_b);
   direction_.head(n_a).noalias() = at_housing_.work.transpose() * on_housing;
   direction_.tail(n_b).noalias() = at_plunger_.work.transpose() * on_plunger;
@@ -71,19 +61,16 @@ void PlungerAxis::add_curvature(double force, Eigen::Ref<Eigen::MatrixXd> tangen
   tangent.topRows(n_a).noalias() += at_housing_.work.transpose() * on_housing_;
   tangent.bottomRows(n_b).noalias() += at_plunger_.work.transpose() * on_plunger_;
   const Vector3d pushed = force * turned_;
-  housing_->add_curvature(y_housing_, force_and_moment(-pushed, -distance_.cross(pushed)),
+  housing_->add_curvature(y_housing_, wrench(-pushed, -distance_.cross(pushed)),
                           tangent.topLeftCorner(n_a, n_a));
-  plunger_->add_curvature(y_plunger_, force_and_moment(pushed, Vector3d::Zero()),
+  plunger_->add_curvature(y_plunger_, wrench(pushed, Vector3d::Zero()),
                           tangent.bottomRightCorner(n_b, n_b));
 }
 
 double PlungerAxis::driven_power(double force) const {
   const Vector3d pushed = force * turned_;
-  double power = 0.0;
-  if (plunger_->is_driven()) power -= pushed.dot(at_plunger_.velocity);
-  if (housing_->is_driven())
-    power += pushed.dot(at_housing_.velocity) + distance_.cross(pushed).dot(at_housing_.spin);
-  return power;
+  return at_housing_.driven.dot(wrench(pushed, distance_.cross(pushed))) -
+         at_plunger_.driven.head<3>().dot(pushed);
 }
 
 }  // namespace clatter::dynamics

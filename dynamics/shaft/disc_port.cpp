@@ -27,9 +27,8 @@ Vector3d DiscPort::tilt(const VectorXd& y) const {
   return tilt;
 }
 
-void DiscPort::motion(double, const VectorXd& y, const VectorXd& v, PortState& state) const {
-  for (Matrix6X* matrix : {&state.by_y, &state.rate_by_y, &state.rate_by_v, &state.work})
-    matrix->setZero(6, size());
+void DiscPort::motion(double, const VectorXd& y, const VectorXd& v, PortState& state) {
+  state.clear(size());
   const Vector3d w = axes_.unit(), t = tilt(y), t_rate = tilt(v);
   const double spin = v(turn());
   state.rotation = turned(y(turn()));
@@ -57,7 +56,7 @@ void DiscPort::motion(double, const VectorXd& y, const VectorXd& v, PortState& s
 }
 
 void DiscPort::add_curvature(const VectorXd& y, const Vector6& wrench,
-                             Eigen::Ref<Eigen::MatrixXd> tangent) const {
+                             Eigen::Ref<Eigen::MatrixXd> tangent) {
   const Vector3d w = axes_.unit(), t = tilt(y), force = wrench.head<3>(), moment = wrench.tail<3>();
   const Vector3d across = w.cross(turned(y(turn())) * arm_), inward = w.cross(across);
   tangent(turn(), turn()) += force.dot(inward + t.cross(inward));

@@ -26,9 +26,9 @@ class DiscPort : public Port {
   DiscPort(std::vector<int> coordinates, const ShaftAxes& axes, const Eigen::Vector3d& centre,
            const Eigen::Vector3d& arm);
   void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
-              PortState& state) const override;
+              PortState& state) override;
   void add_curvature(const Eigen::VectorXd& y, const Vector6& wrench,
-                     Eigen::Ref<Eigen::MatrixXd> tangent) const override;
+                     Eigen::Ref<Eigen::MatrixXd> tangent) override;
 
  private:
   bool tilts() const { return size() == 6; }

@@ -65,7 +65,7 @@ void CoilEnd::add_curvature(double force, Eigen::Ref<MatrixXd> tangent) const {
 }
 
 double CoilEnd::driven_power(double force) const {
-  return port_->is_driven() ? -force * axis_.dot(port_->driven(at_).head<3>()) : 0.0;
+  return -force * axis_.dot(at_.driven.head<3>());
 }
 
 CoilSpring::CoilSpring(std::string name, CoilEnd a, CoilEnd b, const std::vector<int>& masses,

@@ -149,13 +149,9 @@ void RollerContact::fill_tangent(double kappa, MatrixXd& tangent) {
 double RollerContact::driven_power() const {
   const Vector3d force =
       last_.on_roller.x() * cam_.plane.first + last_.on_roller.y() * cam_.plane.second;
-  double power = 0.0;
-  if (roller_->is_driven()) power -= force.dot(roller_->driven(at_roller_).head<3>());
-  if (cam_.port->is_driven()) {
-    const Vector3d normal = cam_.plane.first.cross(cam_.plane.second);
-    power -= wrench(-force, last_.moment * normal).dot(cam_.port->driven(at_cam_));
-  }
-  return power;
+  const Vector3d normal = cam_.plane.first.cross(cam_.plane.second);
+  return -force.dot(at_roller_.driven.head<3>()) -
+         wrench(-force, last_.moment * normal).dot(at_cam_.driven);
 }
 
 void RollerContact::accept_step(double time) {

@@ -12,14 +12,12 @@ namespace clatter::dynamics::testing {
 using Eigen::Vector3d;
 
 void GivenPort::motion(double time, const Eigen::VectorXd&, const Eigen::VectorXd&,
-                       PortState& state) const {
+                       PortState& state) {
   const Motion<double> at = motion_(time);
+  state.clear(0);
   state.position = at.position * axis_;
   state.velocity = at.velocity * axis_;
-  state.spin.setZero();
-  state.rotation.setIdentity();
-  for (Matrix6X* matrix : {&state.by_y, &state.rate_by_y, &state.rate_by_v, &state.work})
-    matrix->setZero(6, 0);
+  state.driven.head<3>() = state.velocity;
 }
 
 ChamberSpec reference_tensioner() {

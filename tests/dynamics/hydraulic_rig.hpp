@@ -22,7 +22,7 @@ class GivenPort : public Port {
   GivenPort(const Eigen::Vector3d& axis, GivenMotion motion)
       : Port({}), axis_(axis), motion_(std::move(motion)) {}
   void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
-              PortState& state) const override;
+              PortState& state) override;
   bool is_driven() const override { return true; }
 
  private:

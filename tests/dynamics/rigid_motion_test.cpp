@@ -57,10 +57,10 @@ TEST(PortElement, TangentsAreTheDifferenceQuotientsOfTheForces) {
 
 TEST(Port, RotationTurnsTheBodysAxesByItsSpin) {
   const double h = 1e-6;
-  const DrivenPort driven(Drive(3.0, 0.4), {1.0, 2.0, 3.0}, {0.1, 0.2, 0.3}, {0.6, 0.0, 0.8});
-  const NodePort node({0.2, 0.1, 0.0}, {0, 1, 2, 3, 4, 5});
+  DrivenPort driven(Drive(3.0, 0.4), {1.0, 2.0, 3.0}, {0.1, 0.2, 0.3}, {0.6, 0.0, 0.8});
+  NodePort node({0.2, 0.1, 0.0}, {0, 1, 2, 3, 4, 5});
   const auto planar = planar_port(0, {0.4, 0.1});
-  for (const Port* port : std::initializer_list<const Port*>{&driven, planar.get(), &node}) {
+  for (Port* port : std::initializer_list<Port*>{&driven, planar.get(), &node}) {
     VectorXd y = arbitrary(port->size(), 1), v = arbitrary(port->size(), 2);
     if (port == &node) y *= 1e-6;  // its rotations are small ones
     PortState at, before, after;
@@ -75,7 +75,7 @@ TEST(Port, RotationTurnsTheBodysAxesByItsSpin) {
 TEST(Port, ADrivenShaftFollowsItsBearingButForItsOwnTurn) {
   const double h = 1e-6;
   const Vector3d place(0.2, 0.1, 0.0), centre(0.5, -0.3, 0.2), axis(0.6, 0.0, 0.8);
-  const DrivenPort port(Drive(3.0, 0.4), centre, {0.1, 0.2, 0.3}, axis,
+  DrivenPort port(Drive(3.0, 0.4), centre, {0.1, 0.2, 0.3}, axis,
                         std::make_unique<NodePort>(place, std::vector<int>{0, 1, 2, 3, 4, 5}));
   const VectorXd y = 1e-6 * arbitrary(6, 1), v = 1e-3 * arbitrary(6, 2);
   PortState at, before, after;
@@ -84,8 +84,7 @@ TEST(Port, ADrivenShaftFollowsItsBearingButForItsOwnTurn) {
   port.motion(0.0, y, v, at);
   // Small rotations: their squares, and the bearing's tilt under the shaft's spin, are left out.
   EXPECT_LT((after.position - before.position - 2.0 * h * at.velocity).norm(), 2.0 * h * 1e-5);
-  const Vector6 drive = port.driven(at);
-  const Vector3d moved = at.velocity - drive.head<3>();
+  const Vector3d moved = at.velocity - at.driven.head<3>();
   EXPECT_LT((at.by_y.topRows<3>() * v - moved).norm(), 1e-15);
   // A force at the point on the bearing: itself, and its moment but for the part about the axis.
   const Vector3d force(3.0, -2.0, 5.0), moment(0.3, 0.1, -0.2);

@@ -100,7 +100,7 @@ TEST(ChainOracle, PolygonOfADrivenSprocket) {
   const int teeth = 20;
   const double speed = 3400.0 * pi / 30.0, pitch = 2.0 * pi / teeth;
   const ToothGap gap = iso606_gap(kLinkPitch, 5e-3, teeth);
-  const DrivenPort pin(Drive(-speed, 0.5 * pi + 0.5 * pitch), Vector3d::Zero(),
+  DrivenPort pin(Drive(-speed, 0.5 * pi + 0.5 * pitch), Vector3d::Zero(),
                        {0.5 * gap.pitch_diameter, 0.0, 0.0}, Vector3d::UnitZ());
   PortState at;
   const auto move = [&](double share) {

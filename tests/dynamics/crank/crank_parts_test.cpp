@@ -80,7 +80,7 @@ TEST(CrankPin, TangentsOfItsJointAreDifferenceQuotients) {
 }
 
 TEST(CrankPort, TurnsWithItsClockAndTilts) {
-  const CrankPort port({0, 1, 2, 3, 4}, 0.5, 0.2, kUneven, Rotation::kBackward);
+  CrankPort port({0, 1, 2, 3, 4}, 0.5, 0.2, kUneven, Rotation::kBackward);
   const Eigen::VectorXd y = 1e-6 * arbitrary(5, 1), v = 1e-3 * arbitrary(5, 2);
   PortState at, before, after;
   const double h = 1e-6, t = 1e-3;
@@ -94,7 +94,7 @@ TEST(CrankPort, TurnsWithItsClockAndTilts) {
   // Power of a wrench: on the coordinates, and on what is prescribed.
   const Vector6 load = arbitrary(6, 5);
   const double power = load.dot(wrench(at.velocity, at.spin));
-  EXPECT_NEAR(power, (at.work.transpose() * load).dot(v) + load.dot(port.driven(at)), 1e-12);
+  EXPECT_NEAR(power, (at.work.transpose() * load).dot(v) + load.dot(at.driven), 1e-12);
 }
 
 /// A file of the current test.
