@@ -21,20 +21,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-namespace {
-
-/// A part of a body at the start: the motion of its port there.
-PortState at_start(ModelBuilder& model, const Port& port) {
-  const VectorXd y = model.system.interface(model.system.eta_start()),
-                 v = model.system.interface(model.system.v_start());
-  PortState state;
-  port.motion(model.time.begin, gather(y, port.coordinates()), gather(v, port.coordinates()),
-              state);
-  return state;
-}
-
-}  // namespace
-
 ChainComponent::ChainComponent(ChainSpec spec) : spec_(std::move(spec)), layout_(lay_out(spec_)) {
   for (const char* what : {"_tension_min", "_tension_max", "_jumps"})
     recorded_.push_back(spec_.name + what);
@@ -52,7 +38,7 @@ ChainComponent::ChainComponent(ChainSpec spec) : spec_(std::move(spec)), layout_
 /// Of the chain, as the first sprocket drives it [m/s].
 double ChainComponent::start_speed(ModelBuilder& model) const {
   const ChainOver& first = spec_.over.front();
-  const PortState state = at_start(model, *model.port(first.on));
+  const PortState state = model.at_start(*model.port(first.on));
   const double spin = state.spin(spec_.normal) * static_cast<double>(first.turn);
   return spin * first.belt.front().per_angle;
 }
@@ -100,7 +86,7 @@ ProfileCarrier ChainComponent::carrier(ModelBuilder& model, size_t index) const 
   ProfileCarrier carrier;
   carrier.port = model.port(over.on);
   carrier.plane = spec_.plane();
-  const PortState state = at_start(model, *carrier.port);
+  const PortState state = model.at_start(*carrier.port);
   const Vector2d axis = spec_.in_plane(state.rotation * carrier.plane.first);
   const double body = std::atan2(axis.y(), axis.x());
   if (over.teeth > 0) {

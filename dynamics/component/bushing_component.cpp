@@ -2,22 +2,18 @@
 #include "dynamics/component/bushing_component.hpp"
 
 #include "dynamics/component/component_catalogue.hpp"
-#include "dynamics/force/port_element.hpp"
-#include "dynamics/force/table_bushing.hpp"
+#include "dynamics/force/joint_laws.hpp"
+#include "dynamics/force/pair_element.hpp"
 
 namespace clatter::dynamics {
 
 void BushingComponent::add_elements(ModelBuilder& model) {
   for (const BushingSpec& bushing : bushings_) {
     PairPorts ports = ports_of(bushing, model);
-    if (bushing.law) {
-      model.system.add_element(std::make_unique<TableBushing>(bushing.name, std::move(ports.a),
-                                                              std::move(ports.b), *bushing.law));
-    } else {
-      model.system.add_element(std::make_unique<Bushing>(bushing.name, std::move(ports.a),
-                                                         std::move(ports.b), bushing.stiffness,
-                                                         bushing.damping));
-    }
+    auto law = bushing.law ? std::make_unique<RadialJoint>(*bushing.law)
+                           : linear_joint(bushing.stiffness, bushing.damping);
+    model.system.add_element(std::make_unique<PairElement>(bushing.name, std::move(ports.a),
+                                                           std::move(ports.b), std::move(law)));
   }
 }
 

@@ -70,6 +70,14 @@ int ModelBuilder::y(const std::string& body, const std::string& set, int axis, b
                            set_dof(find_body(loaded, body)->model, set, axis, rotation));
 }
 
+PortState ModelBuilder::at_start(Port& port) const {
+  system.start_frames(time.begin);
+  PortState state;
+  port.motion(time.begin, gather(system.interface(system.eta_start()), port.coordinates()),
+              gather(system.interface(system.v_start()), port.coordinates()), state);
+  return state;
+}
+
 Eigen::Vector3d ModelBuilder::position(const PointSpec& point,
                                        const std::optional<Eigen::Vector3d>& fallback) const {
   if (point.at) return *point.at;

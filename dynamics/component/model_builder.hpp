@@ -87,6 +87,8 @@ class ModelBuilder {
   /// its model lacks, or a point of a body whose frame moves.
   std::unique_ptr<Port> port(const PointSpec& point,
                              const std::optional<Eigen::Vector3d>& fallback = std::nullopt);
+  /// Its motion at the start of the run.
+  PortState at_start(Port& port) const;
 
  private:
   std::unique_ptr<Port> node_port(const LoadedBody& body, const PointSpec& point);

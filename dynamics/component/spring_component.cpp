@@ -3,7 +3,8 @@
 
 #include "core/base/error.hpp"
 #include "dynamics/component/component_catalogue.hpp"
-#include "dynamics/force/port_element.hpp"
+#include "dynamics/force/joint_laws.hpp"
+#include "dynamics/force/pair_element.hpp"
 
 namespace clatter::dynamics {
 
@@ -15,9 +16,9 @@ void SpringComponent::add_elements(ModelBuilder& model) {
                        ": is the same point as a, expected another one: the spring acts along the "
                        "line between them");
     PairPorts ports = ports_of(spring, model);
-    model.system.add_element(std::make_unique<LineSpring>(spring.name, std::move(ports.a),
-                                                          std::move(ports.b), spring.stiffness,
-                                                          spring.damping, spring.length));
+    model.system.add_element(std::make_unique<PairElement>(
+        spring.name, std::move(ports.a), std::move(ports.b),
+        std::make_unique<LineSpring>(spring.stiffness, spring.damping, spring.length)));
   }
 }
 

@@ -16,21 +16,12 @@ namespace {
 /// Of positions given as decimal numbers: a point so far behind the plane is on it [m].
 constexpr double kRounding = 1e-9;
 
-PortState at_start(const ModelBuilder& model, const Port& port) {
-  const System& system = model.system;
-  system.start_frames(model.time.begin);
-  PortState state;
-  port.motion(model.time.begin, gather(system.interface(system.eta_start()), port.coordinates()),
-              gather(system.interface(system.v_start()), port.coordinates()), state);
-  return state;
-}
-
 std::unique_ptr<Stop> make_stop(const StopSpec& stop, ModelBuilder& model,
                                 std::vector<const RigidStop*>& rigid) {
   auto a = model.port(stop.a), b = model.port(stop.b, model.position(stop.a, std::nullopt));
   if (a->size() + b->size() == 0)
     throw InputError(stop.where + ": a and b: found no body that can move, expected one");
-  const PortState point = at_start(model, *a), plane = at_start(model, *b);
+  const PortState point = model.at_start(*a), plane = model.at_start(*b);
   const double gap = stop.normal.dot(point.position - plane.position);
   const Eigen::Vector3d normal = plane.rotation.transpose() * stop.normal;
   PointOnPlane pair(std::move(a), std::move(b), normal);

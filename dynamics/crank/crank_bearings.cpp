@@ -9,11 +9,11 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "dynamics/bearing/bearing_laws.hpp"
+#include "dynamics/bearing/film_bearing.hpp"
 #include "dynamics/component/law_table.hpp"
-#include "dynamics/crank/film_bearing.hpp"
-#include "dynamics/crank/table_bearing.hpp"
 #include "dynamics/force/crank_port.hpp"
-#include "dynamics/shaft/journal_bearing.hpp"
+#include "dynamics/force/pair_element.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -43,25 +43,18 @@ Housing housing_on_block(const CrankBearingSpec& bearing, const LoadedBody& bloc
           {coordinates[1], coordinates[2]}};
 }
 
-std::unique_ptr<ForceElement> bearing_element(const CrankBearingSpec& bearing,
-                                              std::unique_ptr<Port> journal,
-                                              std::unique_ptr<Port> housing,
-                                              const Eigen::Vector3d& offset) {
-  const std::string name = fmt::format("bearing {} {}", CrankBody::kName, bearing.name);
+std::unique_ptr<PairLaw> bearing_law(const CrankBearingSpec& bearing, const BearingPlace& place) {
   if (const auto* linear = std::get_if<LinearBearingSpec>(&bearing.law))
-    return std::make_unique<LinearBearing>(name, std::move(journal), std::move(housing), kAxes,
-                                           offset, ThrustLaw{}, linear->stiffness, linear->damping);
-  if (const auto* table = std::get_if<TableBearingSpec>(&bearing.law))
-    return std::make_unique<TableBearing>(
-        name, std::move(journal), std::move(housing), kAxes, offset,
-        read_rising_table({table->table, table->column, "m", "N"}), table->damping);
+    return std::make_unique<RadialBearing>(
+        place, RadialLaw{0.0, linear->stiffness, 0.0, 1.0, linear->damping});
+  if (const auto* spec = std::get_if<TableBearingSpec>(&bearing.law)) {
+    const RisingTable table = read_rising_table({spec->table, spec->column, "m", "N"});
+    return std::make_unique<RadialBearing>(place, RadialTable(table, spec->damping), table.last());
+  }
   if (const auto* film = std::get_if<JournalFilmOptions>(&bearing.law))
-    return std::make_unique<FilmBearing>(name, std::move(journal), std::move(housing), kAxes,
-                                         offset, *film);
+    return std::make_unique<FilmBearing>(place, *film);
   const auto& impedance = std::get<ImpedanceSpec>(bearing.law);
-  return std::make_unique<JournalBearing>(name, std::move(journal), std::move(housing), kAxes,
-                                          offset, ThrustLaw{},
-                                          BearingFilm(impedance.size, impedance.model));
+  return std::make_unique<ImpedanceBearing>(place, BearingFilm(impedance.size, impedance.model));
 }
 
 }  // namespace
@@ -97,8 +90,9 @@ std::vector<BearingOrbit> add_crank_bearings(const CrankSpec& crank, ModelBuilde
     auto journal = std::make_unique<CrankPort>(crank_coordinates(crank.body, model), x, arm,
                                                crank.clock, crank.rotation);
     const Eigen::Vector3d offset = Eigen::Vector3d(x, 0.0, 0.0) - housing.position;
-    model.system.add_element(
-        bearing_element(bearing, std::move(journal), std::move(housing.port), offset));
+    model.system.add_element(std::make_unique<PairElement>(
+        fmt::format("bearing {} {}", CrankBody::kName, bearing.name), std::move(journal),
+        std::move(housing.port), bearing_law(bearing, {kAxes, offset})));
     orbits.push_back({fmt::format("bearing_{}_{}", CrankBody::kName, bearing.name),
                       arm,
                       {housing.lateral[0], housing.lateral[1]}});

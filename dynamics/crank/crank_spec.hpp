@@ -9,11 +9,11 @@
 
 #include "core/base/config.hpp"
 #include "core/keys/table.hpp"
+#include "dynamics/bearing/bearing_film.hpp"
+#include "dynamics/bearing/journal_film.hpp"
 #include "dynamics/body/crank_body.hpp"
-#include "dynamics/crank/journal_film.hpp"
 #include "dynamics/given/crank.hpp"
 #include "dynamics/given/spline.hpp"
-#include "dynamics/shaft/bearing_film.hpp"
 
 namespace clatter::dynamics {
 

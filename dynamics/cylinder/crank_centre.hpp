@@ -2,7 +2,7 @@
 #pragma once
 // The crank's centre as a point of the block.
 #include "dynamics/cylinder/cylinder_bodies.hpp"
-#include "dynamics/force/anchor.hpp"
+#include "dynamics/force/mechanism_port.hpp"
 
 namespace clatter::dynamics {
 

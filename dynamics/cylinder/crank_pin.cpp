@@ -2,7 +2,7 @@
 #include "dynamics/cylinder/crank_pin.hpp"
 
 #include "dynamics/cylinder/crank_centre.hpp"
-#include "dynamics/force/crank_anchor.hpp"
+#include "dynamics/force/mechanism_port.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -22,7 +22,7 @@ PointWeights crank_axis(const CylinderBodies& bodies, const CrankBody& crankshaf
 
 }  // namespace
 
-std::unique_ptr<Anchor> crank_pin(const CylinderBodies& bodies, const SliderCrank& crank) {
+std::unique_ptr<Port> crank_pin(const CylinderBodies& bodies, const SliderCrank& crank) {
   const std::optional<CrankBody>& crankshaft = bodies.spec.crankshaft;
   PointWeights centre;
   if (crankshaft && crankshaft->in_bearings) {
@@ -30,10 +30,10 @@ std::unique_ptr<Anchor> crank_pin(const CylinderBodies& bodies, const SliderCran
   } else if (bodies.block() != nullptr) {
     centre = crank_centre(bodies);
   }
-  if (!crankshaft || !crankshaft->is_free) return std::make_unique<LinearAnchor>(std::move(centre));
-  const int turn =
-      bodies.model.system.coordinate(bodies.model.body(CrankBody::kName), crankshaft->turn());
-  return std::make_unique<CrankPinAnchor>(std::move(centre), turn, crank);
+  std::optional<int> turn;
+  if (crankshaft && crankshaft->is_free)
+    turn = bodies.model.system.coordinate(bodies.model.body(CrankBody::kName), crankshaft->turn());
+  return std::make_unique<CrankPinPort>(std::move(centre), turn, crank);
 }
 
 }  // namespace clatter::dynamics

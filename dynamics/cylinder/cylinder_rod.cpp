@@ -11,8 +11,8 @@
 #include "dynamics/body/elastic_rod.hpp"
 #include "dynamics/cylinder/cylinder_catalogue.hpp"
 #include "dynamics/cylinder/real_crank_element.hpp"
-#include "dynamics/force/elastic_rod_anchor.hpp"
 #include "dynamics/force/massless_rod.hpp"
+#include "dynamics/force/mechanism_port.hpp"
 #include "dynamics/force/pin_guide.hpp"
 #include "dynamics/force/rod_frame.hpp"
 
@@ -78,23 +78,23 @@ Motion<Eigen::Vector2d> rod_centre(const RodProperties& rod, const SliderCrank& 
   return centre;
 }
 
-std::unique_ptr<Anchor> rod_end(const CylinderBodies& bodies, const SliderCrank& crank,
-                                bool small) {
+std::unique_ptr<Port> rod_end(const CylinderBodies& bodies, const SliderCrank& crank, bool small) {
   const CylinderSpec& spec = bodies.spec;
   const RodProperties& rod = spec.engine.rod;
   const double arm = small ? rod.small_arm() : rod.big_arm();
   if (spec.rod.model == RodModel::kMassless)
-    return std::make_unique<RodAnchor>(std::vector<int>{0, 1, 2}, crank, arm);
+    return std::make_unique<RodPort>(std::vector<int>{0, 1, 2}, crank, Eigen::Vector2d(0.0, arm));
   System& system = bodies.model.system;
   const int body = bodies.rod_index();
   std::vector<int> y;
   for (int k = 0; k < kRodPlanar; ++k) y.push_back(system.coordinate(body, k));
-  if (spec.rod.model != RodModel::kElastic) return std::make_unique<RodAnchor>(y, crank, arm);
+  if (spec.rod.model != RodModel::kElastic)
+    return std::make_unique<RodPort>(y, crank, Eigen::Vector2d(0.0, arm));
   const Node node = end_of(loaded_rod(bodies), spec.rod, small);
   for (const size_t axis : {1U, 2U})
     y.push_back(system.coordinate(body, kRodPlanar + node.dofs[axis]));
   const Eigen::Vector3d from_centre = node.position - loaded_rod(bodies).rod->centre;
-  return std::make_unique<ElasticRodAnchor>(y, crank, from_centre.tail<2>());
+  return std::make_unique<RodPort>(y, crank, from_centre.tail<2>());
 }
 
 std::unique_ptr<ForceElement> massless_rod(const CylinderBodies& bodies,

@@ -6,8 +6,8 @@
 
 #include "dynamics/component/effects.hpp"
 #include "dynamics/cylinder/cylinder_bodies.hpp"
-#include "dynamics/force/anchor.hpp"
 #include "dynamics/force/element.hpp"
+#include "dynamics/force/mechanism_port.hpp"
 #include "dynamics/given/crank.hpp"
 
 namespace clatter::dynamics {
@@ -25,7 +25,7 @@ Motion<Eigen::Vector2d> rod_centre(const RodProperties& rod, const SliderCrank& 
                                    const Motion<double>& theta);
 
 /// An end of the rod, as joints see it. @param small the small end; else the big end.
-std::unique_ptr<Anchor> rod_end(const CylinderBodies& bodies, const SliderCrank& crank, bool small);
+std::unique_ptr<Port> rod_end(const CylinderBodies& bodies, const SliderCrank& crank, bool small);
 /// Joins the two joints of a massless rod to one element.
 std::unique_ptr<ForceElement> massless_rod(const CylinderBodies& bodies,
                                            std::unique_ptr<ForceElement> pin,

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/keys/table.hpp"
-#include "dynamics/force/joint_friction.hpp"
+#include "dynamics/bearing/bearing_film.hpp"
+#include "dynamics/force/joint_laws.hpp"
 #include "dynamics/force/radial_table.hpp"
-#include "dynamics/shaft/bearing_film.hpp"
 
 namespace clatter::dynamics {
 

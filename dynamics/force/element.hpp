@@ -3,23 +3,14 @@
 // Interface of force elements: forces and their tangent at an implicit stage, internal states under
 // the same tableau, power, and reported scalars.
 #include <Eigen/Core>
-#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "dynamics/force/history.hpp"
+#include "dynamics/force/stage.hpp"
 
 namespace clatter::dynamics {
-
-/// One implicit stage of the integrator: x_i = x_n + sum_{j<i} weights[j] x'_j + kappa x'_i holds
-/// for displacements, velocities and for the internal states of elements alike.
-struct Stage {
-  double time;                  // [s]
-  double kappa;                 // dt * a_ii [s]
-  int index;                    // i; 0 is the starting implicit Euler stage of a run, then 1, 2
-  std::vector<double> weights;  // dt * a_ij, j < index [s]
-};
 
 /// A part of an element's tangent that couples few of its coordinates: those of its group, n_g.
 struct TangentBlock {
@@ -49,22 +40,6 @@ struct Power {
 struct Mobility {
   Eigen::MatrixXd v;  // velocities [1/kg] and the like; of states: 0, their rates follow from y
   Eigen::MatrixXd y;  // coordinates that are states, as angular momenta; of others: 0
-};
-
-/// A trial state is not admissible (film thickness <= 0, inner solve failed): the step is reduced.
-class StepRefused : public std::exception {
- public:
-  /// `kind`: by which refusals are counted, without values ("film: gap below the film's minimum");
-  /// `detail`: the values of this one.
-  StepRefused(std::string kind, std::string detail)
-      : kind_(std::move(kind)), detail_(std::move(detail)) {}
-
-  const std::string& kind() const { return kind_; }
-  const std::string& detail() const { return detail_; }
-  const char* what() const noexcept override { return kind_.c_str(); }
-
- private:
-  std::string kind_, detail_;
 };
 
 /// A force between interface coordinates y of the bodies (see system.hpp).

@@ -19,7 +19,7 @@ constexpr int kRod = 3;  // coordinates
 
 std::vector<int> joined(const ForceElement& pin, const ForceElement& crank_pin) {
   std::vector<int> all(pin.coordinates().begin(), pin.coordinates().end() - kRod);
-  all.insert(all.end(), crank_pin.coordinates().begin() + kRod, crank_pin.coordinates().end());
+  all.insert(all.end(), crank_pin.coordinates().begin(), crank_pin.coordinates().end() - kRod);
   return all;
 }
 
@@ -43,13 +43,13 @@ Vector3d MasslessRod::balance(const Stage& stage, const VectorXd& y, const Vecto
   const Vector3d rate = (x_ - before_) / stage.kappa;
   y_pin_ << y.head(n_pin_), x_;
   v_pin_ << v.head(n_pin_), rate;
-  y_crank_ << x_, y.tail(n_crank_);
-  v_crank_ << rate, v.tail(n_crank_);
+  y_crank_ << y.tail(n_crank_), x_;
+  v_crank_ << v.tail(n_crank_), rate;
   pin_->evaluate(stage, y_pin_, v_pin_, true, at_pin_);
   crank_pin_->evaluate(stage, y_crank_, v_crank_, true, at_crank_);
   by_x_ = at_pin_.tangent.bottomRightCorner<kRod, kRod>() +
-          at_crank_.tangent.topLeftCorner<kRod, kRod>();
-  return at_pin_.force.tail<kRod>() + at_crank_.force.head<kRod>();
+          at_crank_.tangent.bottomRightCorner<kRod, kRod>();
+  return at_pin_.force.tail<kRod>() + at_crank_.force.tail<kRod>();
 }
 
 void MasslessRod::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v,
@@ -62,7 +62,7 @@ void MasslessRod::evaluate(const Stage& stage, const VectorXd& y, const VectorXd
   Vector3d left = balance(stage, y, v);
   const auto size = [&] {
     return at_pin_.force.tail<kRod>().cwiseAbs().maxCoeff() +
-           at_crank_.force.head<kRod>().cwiseAbs().maxCoeff() + 1e-3;
+           at_crank_.force.tail<kRod>().cwiseAbs().maxCoeff() + 1e-3;
   };
   int count = 0;
   for (; count < kMost && !(left.cwiseAbs().maxCoeff() <= kBalanced * size()); ++count) {
@@ -86,19 +86,19 @@ void MasslessRod::evaluate(const Stage& stage, const VectorXd& y, const VectorXd
                                   left.cwiseAbs().maxCoeff(), size(), count));
   }
   response.force.resize(n_pin_ + n_crank_);
-  response.force << at_pin_.force.head(n_pin_), at_crank_.force.tail(n_crank_);
+  response.force << at_pin_.force.head(n_pin_), at_crank_.force.head(n_crank_);
   if (!with_tangent) return;
   // What the rod follows by: df/dy - df/dx (dr/dx)^-1 dr/dy.
   Eigen::MatrixXd& T = response.tangent;
   T.setZero(n_pin_ + n_crank_, n_pin_ + n_crank_);
   T.topLeftCorner(n_pin_, n_pin_) = at_pin_.tangent.topLeftCorner(n_pin_, n_pin_);
-  T.bottomRightCorner(n_crank_, n_crank_) = at_crank_.tangent.bottomRightCorner(n_crank_, n_crank_);
+  T.bottomRightCorner(n_crank_, n_crank_) = at_crank_.tangent.topLeftCorner(n_crank_, n_crank_);
   Eigen::Matrix<double, kRod, Eigen::Dynamic> r_by_y(kRod, n_pin_ + n_crank_);
   r_by_y << at_pin_.tangent.bottomLeftCorner(kRod, n_pin_),
-      at_crank_.tangent.topRightCorner(kRod, n_crank_);
+      at_crank_.tangent.bottomLeftCorner(kRod, n_crank_);
   Eigen::Matrix<double, Eigen::Dynamic, kRod> f_by_x(n_pin_ + n_crank_, kRod);
   f_by_x << at_pin_.tangent.topRightCorner(n_pin_, kRod),
-      at_crank_.tangent.bottomLeftCorner(n_crank_, kRod);
+      at_crank_.tangent.topRightCorner(n_crank_, kRod);
   T.noalias() -= f_by_x * by_x_.partialPivLu().solve(r_by_y);
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/force/joint.hpp"
+#include "dynamics/force/element.hpp"
 
 namespace clatter::dynamics {
 
@@ -17,9 +17,8 @@ namespace clatter::dynamics {
 /// under the tableau of the method; y are the coordinates of what the joints join.
 class MasslessRod : public ForceElement {
  public:
-  /// @param pin joint without friction of a point and an end of the rod, @param crank_pin of the
-  /// other end and a point, in this order; the rod's three coordinates have no indices in y: any
-  /// will do.
+  /// @param pin joint of a point and an end of the rod, @param crank_pin of another point and the
+  /// other end, in this order; the rod's three coordinates have no indices in y: any will do.
   MasslessRod(std::string name, std::unique_ptr<ForceElement> pin,
               std::unique_ptr<ForceElement> crank_pin);
 
@@ -46,7 +45,7 @@ class MasslessRod : public ForceElement {
   std::string name_;
   std::unique_ptr<ForceElement> pin_, crank_pin_;
   Eigen::Index n_pin_, n_crank_;  // of the points that they join
-  Response at_pin_, at_crank_;    // the rod's coordinates are the last, the first three
+  Response at_pin_, at_crank_;    // the rod's coordinates are the last three
   Eigen::VectorXd y_pin_, v_pin_, y_crank_, v_crank_;
   Eigen::Matrix3d by_x_;
   Eigen::Vector3d x_ = Eigen::Vector3d::Zero(), before_ = x_;  // and x~ of the stage

@@ -17,6 +17,8 @@ class RadialTable {
   /// negative.
   RadialTable(RisingTable force, Spline damping)
       : force_(std::move(force)), damping_(std::move(damping)) {}
+  RadialTable(RisingTable force, double damping)
+      : RadialTable(std::move(force), Spline(Spline::Kind::kLinear, {0.0}, {damping})) {}
 
   double force(double e) const { return force_.value(e); }            // [N]
   double slope(double e) const { return force_.slope(e); }            // dF/de [N/m]

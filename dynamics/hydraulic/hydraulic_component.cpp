@@ -28,16 +28,6 @@ const char* text_of(CheckValveSpec::Ball ball) {
   return "";
 }
 
-/// y of a port at the start of the run, and its motion there.
-PortState at_start(const ModelBuilder& model, const Port& port) {
-  const Eigen::VectorXd y = model.system.interface(model.system.eta_start());
-  const Eigen::VectorXd v = model.system.interface(model.system.v_start());
-  PortState state;
-  port.motion(model.time.begin, gather(y, port.coordinates()), gather(v, port.coordinates()),
-              state);
-  return state;
-}
-
 /// The fluid's law needs a pressure above 0.
 void require_pressures(const SupplySpec& supply) {
   const CsvColumns rows = read_csv(supply.table, supply.column);
@@ -83,7 +73,7 @@ TimeFunction supply_pressure(const SupplySpec& given, const ModelBuilder& model)
 PlungerAxis HydraulicComponent::axis(ModelBuilder& model) const {
   auto housing = model.port(spec_.a);
   auto plunger = model.port(spec_.b, model.position(spec_.a, std::nullopt));
-  const PortState a = at_start(model, *housing), b = at_start(model, *plunger);
+  const PortState a = model.at_start(*housing), b = model.at_start(*plunger);
   const double offset = spec_.axis.dot(b.position - a.position) - spec_.travel;
   return {std::move(housing), std::move(plunger), a.rotation.transpose() * spec_.axis, offset};
 }

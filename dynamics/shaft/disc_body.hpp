@@ -3,8 +3,8 @@
 // Discs of shafts as bodies.
 #include <string>
 
+#include "dynamics/bearing/shaft_axes.hpp"
 #include "dynamics/body/modal_body.hpp"
-#include "dynamics/shaft/shaft_axes.hpp"
 
 namespace clatter::dynamics {
 

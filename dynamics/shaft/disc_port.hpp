@@ -3,8 +3,8 @@
 // Points of discs.
 #include <vector>
 
+#include "dynamics/bearing/shaft_axes.hpp"
 #include "dynamics/force/port.hpp"
-#include "dynamics/shaft/shaft_axes.hpp"
 
 namespace clatter::dynamics {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/bearing/shaft_axes.hpp"
 #include "dynamics/force/element.hpp"
-#include "dynamics/shaft/shaft_axes.hpp"
 #include "dynamics/shaft/shaft_section.hpp"
 
 namespace clatter::dynamics {

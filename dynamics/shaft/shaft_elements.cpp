@@ -8,8 +8,9 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "dynamics/bearing/bearing_laws.hpp"
+#include "dynamics/force/pair_element.hpp"
 #include "dynamics/shaft/disc_gyroscope.hpp"
-#include "dynamics/shaft/journal_bearing.hpp"
 #include "dynamics/shaft/shaft_beam.hpp"
 
 namespace clatter::dynamics {
@@ -96,17 +97,17 @@ void add_bearing(const ShaftSpec& shaft, const ShaftBodies& bodies, size_t index
                  model.system, point);
   auto housing = model.port(spec.on, point);
   const std::string name = fmt::format("bearing {} {}", shaft.name, spec.name);
-  if (!spec.film) {
-    model.system.add_element(
-        std::make_unique<LinearBearing>(name, std::move(journal), std::move(housing), shaft.axes,
-                                        offset, spec.thrust, spec.stiffness, spec.damping));
-    return;
+  const BearingPlace place{shaft.axes, offset, spec.thrust,
+                           model.at_rest ? shaft.start.speed : 0.0};
+  std::unique_ptr<PairLaw> law;
+  if (spec.film) {
+    law = std::make_unique<ImpedanceBearing>(place, BearingFilm(spec.size, *spec.film));
+  } else {
+    law = std::make_unique<RadialBearing>(place,
+                                          RadialLaw{0.0, spec.stiffness, 0.0, 1.0, spec.damping});
   }
-  auto bearing =
-      std::make_unique<JournalBearing>(name, std::move(journal), std::move(housing), shaft.axes,
-                                       offset, spec.thrust, BearingFilm(spec.size, *spec.film));
-  if (model.at_rest) bearing->assume_spin(shaft.start.speed);
-  model.system.add_element(std::move(bearing));
+  model.system.add_element(
+      std::make_unique<PairElement>(name, std::move(journal), std::move(housing), std::move(law)));
 }
 
 }  // namespace

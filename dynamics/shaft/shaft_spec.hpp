@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/base/config.hpp"
+#include "dynamics/bearing/bearing_laws.hpp"
+#include "dynamics/bearing/shaft_axes.hpp"
 #include "dynamics/component/component_keys.hpp"
 #include "dynamics/shaft/disc_body.hpp"
-#include "dynamics/shaft/journal_bearing.hpp"
-#include "dynamics/shaft/shaft_axes.hpp"
 #include "dynamics/shaft/shaft_section.hpp"
 #include "dynamics/shaft/torsion_spring.hpp"
 

@@ -10,7 +10,8 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/body/rigid_body.hpp"
-#include "dynamics/force/port_element.hpp"
+#include "dynamics/force/joint_laws.hpp"
+#include "dynamics/force/pair_element.hpp"
 #include "dynamics/force/stop.hpp"
 
 namespace clatter::dynamics {
@@ -39,20 +40,11 @@ double FollowerPlace::cam_angle(const Eigen::Matrix3d& rotation) const {
   return turn * std::atan2(turned.dot(plane.second), turned.dot(plane.first));
 }
 
-PortState port_at_start(const ModelBuilder& model, const Port& port) {
-  const System& system = model.system;
-  system.start_frames(model.time.begin);
-  PortState state;
-  port.motion(model.time.begin, gather(system.interface(system.eta_start()), port.coordinates()),
-              gather(system.interface(system.v_start()), port.coordinates()), state);
-  return state;
-}
-
 FollowerStart follower_start(ModelBuilder& model, const FollowerSpec& spec,
                              const CamProfile& profile, const FollowerPlace& place,
                              const PointSpec& cam) {
   constexpr double kStep = 1e-3;  // [rad]
-  const PortState at = port_at_start(model, *model.port(cam));
+  const PortState at = model.at_start(*model.port(cam));
   FollowerStart start;
   start.angle = place.cam_angle(at.rotation);
   start.lift = profile.lift(spec.geometry, start.angle);
@@ -109,11 +101,11 @@ FollowerElements add_follower_elements(ModelBuilder& model, const std::string& n
       spec.geometry.roller_radius, spec.roller);
   FollowerElements elements{roller.get()};
   system.add_element(std::move(roller));
-  system.add_element(std::make_unique<Bushing>(name + " ball" + suffix, port(Vector2d::Zero()),
-                                               std::move(neighbours.ball), spec.ball_stiffness,
-                                               spec.ball_damping));
+  system.add_element(std::make_unique<PairElement>(
+      name + " ball" + suffix, port(Vector2d::Zero()), std::move(neighbours.ball),
+      linear_joint(spec.ball_stiffness, spec.ball_damping)));
   // A disc on a plane is its centre on the plane at its radius.
-  const PortState tip = port_at_start(model, *neighbours.tip);
+  const PortState tip = model.at_start(*neighbours.tip);
   PointOnPlane pair(port(spec.geometry.pad), std::move(neighbours.tip),
                     tip.rotation.transpose() * place.plane.second);
   system.add_element(std::make_unique<CompliantStop>(name + " pad" + suffix, std::move(pair),

@@ -119,7 +119,5 @@ CamSpec make_cam(const CamLawSpec& spec);
 const Keys<LobeSpec>& lobe_keys();
 /// Keys axis, opening, mirrored.
 const Keys<FollowerPlane>& follower_plane_keys();
-/// Motion of a port at the start.
-PortState port_at_start(const ModelBuilder& model, const Port& port);
 
 }  // namespace clatter::dynamics

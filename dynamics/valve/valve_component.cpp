@@ -141,7 +141,7 @@ void ValveComponent::add_train_elements(ModelBuilder& model, const ValveLobe& lo
   const Vector3d tip = on_axis(train, 0.0);
 
   auto seat_port = model.port(lobe.seat, on_axis(train, kValveLength));
-  const PortState seat_at = port_at_start(model, *seat_port);
+  const PortState seat_at = model.at_start(*seat_port);
   // Lift 0 is a valve that its spring presses into the seat.
   const Vector3d pressed = spec_.coil.spring.force / spec_.seat.stiffness * opening;
   auto seat = std::make_unique<CompliantStop>(
@@ -153,7 +153,7 @@ void ValveComponent::add_train_elements(ModelBuilder& model, const ValveLobe& lo
   system.add_element(std::move(seat));
 
   auto stand = model.port(lobe.spring_seat, on_axis(train, kSpringLength));
-  const Vector3d stand_at = port_at_start(model, *stand).position;
+  const Vector3d stand_at = model.at_start(*stand).position;
   std::vector<int> coils;
   for (int k = 0; k < spec_.coil.spring.masses; ++k)
     coils.push_back(system.coordinate(model.body(train.name + "_coils"), k));
@@ -185,7 +185,7 @@ std::unique_ptr<Port> ValveComponent::add_adjuster(ModelBuilder& model, const Va
   const Vector3d ball = train.place.plane.origin;
   if (!spec_.adjuster.is_hydraulic) {
     auto port = model.port(lobe.adjuster, ball);
-    const double beside = (port_at_start(model, *port).position - ball).norm();
+    const double beside = (model.at_start(*port).position - ball).norm();
     if (beside > 1e-6)
       throw InputError(
           fmt::format("{}: found {:.4g} mm beside the ball of a rigid adjuster, "
@@ -200,7 +200,7 @@ std::unique_ptr<Port> ValveComponent::add_adjuster(ModelBuilder& model, const Va
                                        model.position(lobe.adjuster, ball));
   };
   auto housing = model.port(lobe.adjuster, ball - kAdjusterLength * along);
-  const PortState at = port_at_start(model, *housing);
+  const PortState at = model.at_start(*housing);
   const double offset = along.dot(ball - at.position);
   const int chamber_body = model.body(train.name + "_chamber");
   std::vector<int> own{system.coordinate(chamber_body, 0)};

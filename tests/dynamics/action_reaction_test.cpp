@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 
+#include "dynamics/force/pair_element.hpp"
 #include "tests/dynamics/synthetic_engine.hpp"
 #include "tests/random_matrix.hpp"
 
@@ -83,10 +84,14 @@ TEST_P(ActionReaction, RigidMotionsOfTheWholeDoNoWorkButThatOfTheDrive) {
       if (element.name() == "crank_pin") {
         // External is the torque that drives the crank at constant speed, and nothing else.
         const Eigen::Vector2d pin = testing::cylinder_of(*model).crank().crank_pin(time).position;
-        const double torque = pin.x() * f(1) - pin.y() * f(0);
+        const Eigen::Vector2d on_rod = f.segment<2>(f.size() - 3);
+        const double torque = pin.x() * on_rod.y() - pin.y() * on_rod.x();
         EXPECT_GT(std::abs(torque), 1e-3 * terms(3));
         work(3) -= torque;
       }
+      // The reaction of a joint acts where the force does, d from its own point.
+      if (const auto* joint = dynamic_cast<const PairElement*>(&element))
+        work(3) += joint->last().motion.distance.cross(joint->last().force.force).x();
       // Some motions move an element by rounding only.
       const double worst =
           (work.cwiseAbs().array() / terms.array().max(1e-3 * terms.maxCoeff())).maxCoeff();

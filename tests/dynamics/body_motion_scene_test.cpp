@@ -9,7 +9,8 @@
 #include <numbers>
 
 #include "dynamics/body/floating_body.hpp"
-#include "dynamics/force/port_element.hpp"
+#include "dynamics/force/joint_laws.hpp"
+#include "dynamics/force/pair_element.hpp"
 #include "tests/dynamics/mechanisms.hpp"
 #include "tests/dynamics/slap_scene.hpp"
 #include "tests/dynamics/synthetic.hpp"
@@ -123,8 +124,9 @@ TEST_F(PartMotion, InSpaceAPartMovesLikeTheFloatingBodyOfTheLibrary) {
   System system;
   const SpatialBody body = add_spatial_body(system, floating.body);
   const Matrix3X hook = floating.shape(free.shapes.rightCols(12).middleRows<3>(6));
-  system.add_element(std::make_unique<Bushing>("hook", body.port(floating.arm(truss.node[2]), hook),
-                                               std::make_unique<GroundPort>(anchor), 500.0, 1.0));
+  system.add_element(std::make_unique<PairElement>(
+      "hook", body.port(floating.arm(truss.node[2]), hook), std::make_unique<GroundPort>(anchor),
+      linear_joint(500.0, 1.0)));
   system.add_load({"weight", 0, -system.bodies()[0].rigid.col(2), [](double) { return 9.81; }});
   StepOptions options;
   options.largest = 1e-3;
@@ -214,11 +216,11 @@ TEST_F(PartMotion, OnADriveAPointIsWhereItsFrameAndItsDeformationPutIt) {
 TEST(TurningNode, TangentsOfAJointAreTheDifferenceQuotientsOfItsForce) {
   const Drive drive(8.0, 0.3, {{1.0, 1.5, 0.3}});
   std::vector<int> y{0, 1, 2, 3, 4, 5};
-  Bushing bushing(
+  PairElement bushing(
       "joint",
       std::make_unique<TurningNodePort>(drive, Vector3d(0.1, 0.0, 0.2), Vector3d::UnitY(), 0.3,
                                         Vector3d(0.4, 0.3, -0.1), y),
-      std::make_unique<GroundPort>(Vector3d(0.2, 0.3, 0.1)), 3.0, 0.7);
+      std::make_unique<GroundPort>(Vector3d(0.2, 0.3, 0.1)), linear_joint(3.0, 0.7));
   EXPECT_LT(testing::tangent_error(bushing, testing::arbitrary(6, 1), testing::arbitrary(6, 2)),
             1e-8);
 }

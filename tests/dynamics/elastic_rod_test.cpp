@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The elastic rod and the rod without mass: forces, tangents, powers.
 #include "dynamics/body/elastic_rod.hpp"
+#include "dynamics/force/pair_element.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +9,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/force/elastic_rod_anchor.hpp"
-#include "dynamics/force/joint.hpp"
+#include "dynamics/force/joint_laws.hpp"
 #include "dynamics/force/massless_rod.hpp"
+#include "dynamics/force/mechanism_port.hpp"
 #include "dynamics/force/pin_guide.hpp"
 #include "tests/dynamics/rod_truss.hpp"
 #include "tests/random_matrix.hpp"
@@ -140,14 +141,14 @@ TEST(ElasticRod, IsRefusedWithoutInvariantsOrWithSupports) {
 const RadialLaw kRodLaw{1e-5, 1e7, 1e11, 1.5, 2e4};
 
 /// Joint of a pin (coordinates 0, 1) and an end of the elastic rod (2 .. 6).
-Joint elastic_joint() {
+PairElement elastic_joint() {
   PointWeights pin;
   pin.add(0, 1.0, 0.0);
   pin.add(1, 0.0, 1.0);
-  return Joint("pin", std::make_unique<LinearAnchor>(pin),
-               std::make_unique<ElasticRodAnchor>(std::vector<int>{2, 3, 4, 5, 6}, kRodCrank,
-                                                  Vector2d(0.003, 0.14)),
-               kRodLaw);
+  return PairElement(
+      "pin", std::make_unique<WeightedPort>(pin),
+      std::make_unique<RodPort>(std::vector<int>{2, 3, 4, 5, 6}, kRodCrank, Vector2d(0.003, 0.14)),
+      std::make_unique<RadialJoint>(kRodLaw));
 }
 
 std::unique_ptr<MasslessRod> massless() {
@@ -156,12 +157,13 @@ std::unique_ptr<MasslessRod> massless() {
     point->add(0, 1.0, 0.0);
     point->add(1, 0.0, 1.0);
   }
-  const std::vector<int> own{0, 1, 2};
-  auto at_pin = std::make_unique<Joint>("pin", std::make_unique<LinearAnchor>(pin),
-                                        std::make_unique<RodAnchor>(own, kRodCrank, 0.14), kRodLaw);
-  auto at_crank =
-      std::make_unique<Joint>("crank_pin", std::make_unique<RodAnchor>(own, kRodCrank, -0.07),
-                              std::make_unique<LinearAnchor>(centre), kRodLaw);
+  const auto joint = [](const char* name, const PointWeights& point, double arm) {
+    return std::make_unique<PairElement>(
+        name, std::make_unique<WeightedPort>(point),
+        std::make_unique<RodPort>(std::vector<int>{0, 1, 2}, kRodCrank, Vector2d(0.0, arm)),
+        std::make_unique<RadialJoint>(kRodLaw));
+  };
+  auto at_pin = joint("pin", pin, 0.14), at_crank = joint("crank_pin", centre, -0.07);
   return std::make_unique<MasslessRod>("rod", std::move(at_pin), std::move(at_crank));
 }
 
@@ -186,7 +188,7 @@ double tangent_error(ForceElement& element, const VectorXd& y, const VectorXd& b
 }
 
 TEST(ElasticRod, TangentsOfItsEndAndItsGuideMatchDifferences) {
-  Joint joint = elastic_joint();
+  PairElement joint = elastic_joint();
   EXPECT_LT(
       tangent_error(joint, 2e-5 * test::random_vector(7, 3), 2e-5 * test::random_vector(7, 4)),
       1e-10);
@@ -217,7 +219,7 @@ double power_left(ForceElement& element, const VectorXd& y, const VectorXd& v) {
 }
 
 TEST(ElasticRod, PowersOfItsEndAndItsGuideBalance) {
-  Joint joint = elastic_joint();
+  PairElement joint = elastic_joint();
   EXPECT_LT(power_left(joint, 3e-5 * test::random_vector(7, 5), 0.3 * test::random_vector(7, 6)),
             1e-6);
   GuidePath path;
@@ -229,19 +231,19 @@ TEST(ElasticRod, PowersOfItsEndAndItsGuideBalance) {
 }
 
 TEST(ElasticRod, ItsEndWithoutDisplacementIsThatOfARigidRod) {
-  const RodAnchor rigid({0, 1, 2}, kRodCrank, 0.14);
-  const ElasticRodAnchor elastic({0, 1, 2, 3, 4}, kRodCrank, Vector2d(0.0, 0.14));
+  RodPort rigid({0, 1, 2}, kRodCrank, Vector2d(0.0, 0.14));
+  RodPort elastic({0, 1, 2, 3, 4}, kRodCrank, Vector2d(0.0, 0.14));
   VectorXd y = VectorXd::Zero(5), v = VectorXd::Zero(5);
   y.head<3>() = 3e-5 * test::random_vector(3, 1);
   v.head<3>() = 0.2 * test::random_vector(3, 2);
-  AnchorState a, b;
-  rigid.find(kRodTime, y.head(3), v.head(3), a);
-  elastic.find(kRodTime, y, v, b);
-  EXPECT_LT((a.d - b.d).norm(), 1e-14 * a.d.norm());
-  EXPECT_LT((a.rate - b.rate).norm(), 1e-13 * a.rate.norm());
-  EXPECT_LT((a.prescribed - b.prescribed).norm(), 1e-14 * a.rate.norm());
-  EXPECT_LT((a.G - b.G.leftCols<3>()).norm(), 1e-15);
-  EXPECT_LT((a.B - b.B.leftCols<3>()).norm(), 1e-12 * a.B.norm());
+  PortState a, b;
+  rigid.motion(kRodTime, y.head(3), v.head(3), a);
+  elastic.motion(kRodTime, y, v, b);
+  EXPECT_LT((a.position - b.position).norm(), 1e-14 * a.position.norm());
+  EXPECT_LT((a.velocity - b.velocity).norm(), 1e-13 * a.velocity.norm());
+  EXPECT_LT((a.driven - b.driven).norm(), 1e-14 * a.velocity.norm());
+  EXPECT_LT((a.by_y - b.by_y.leftCols<3>()).norm(), 1e-15);
+  EXPECT_LT((a.rate_by_y - b.rate_by_y.leftCols<3>()).norm(), 1e-12 * a.rate_by_y.norm());
 }
 
 TEST(MasslessRod, ItsForceIsAlongTheLineOfItsEndsAndTheSameAtBoth) {

@@ -13,6 +13,7 @@
 #include "dynamics/cylinder/cylinder_component.hpp"
 #include "dynamics/cylinder/cylinder_rod.hpp"
 #include "dynamics/force/mount.hpp"
+#include "dynamics/force/pair_element.hpp"
 #include "dynamics/integrate/dirk.hpp"
 #include "dynamics/run/model.hpp"
 #include "tests/dynamics/rod_truss.hpp"
@@ -165,13 +166,21 @@ class EngineMomentum : public ::testing::TestWithParam<Engine> {
             model_->system.inertia().cwiseProduct(state.v));
   }
 
-  /// What a joint has passed on to the rod, (y, z) [N].
-  Eigen::Vector2d force_on_rod(const CylinderComponent& cylinder, bool small) const {
+  /// The joint of an end of the rod, and what it has passed on to the rod, (y, z) [N].
+  struct RodEnd {
+    const PairElement* joint;
+    Eigen::Vector2d force;
+  };
+  RodEnd rod_end(const CylinderComponent& cylinder, bool small) const {
     const std::string name = cylinder.name() + (small ? "_pin" : "_crank_pin");
     const System& system = model_->system;
-    for (int e = 0; e < system.elements(); ++e)
-      if (system.element(e).name() == name)  // the piston's y and z come first, or the rod's
-        return (small ? -1.0 : 1.0) * system.passed_force(e).head<2>();
+    for (int e = 0; e < system.elements(); ++e) {
+      const auto* joint = dynamic_cast<const PairElement*>(&system.element(e));
+      if (joint == nullptr || joint->name() != name) continue;
+      const VectorXd& passed = system.passed_force(e);  // the rod's coordinates are the last
+      const int of_rod = GetParam().rod.empty() ? 3 : 5;
+      return {joint, passed.segment<2>(passed.size() - of_rod)};
+    }
     throw std::runtime_error(name);
   }
   /// What the rod's own rotation, and its deformation, add to the lever arm of one of its ends [m].
@@ -285,10 +294,13 @@ TEST_P(EngineMomentum, AngularMomentumLacksLeverArmsOfDeviationsAndNothingElse) 
         for (const CylinderComponent* cylinder : components_of<CylinderComponent>(*model_)) {
           const Eigen::Vector2d crank = cylinder->crank().crank_pin(now.time).position;
           for (const bool small : {false, true}) {
-            const Eigen::Vector2d force = force_on_rod(*cylinder, small);
+            const auto [joint, force] = rod_end(*cylinder, small);
             if (!small) drive += crank.x() * force.y() - crank.y() * force.x();
             const Eigen::Vector2d arm = turned_arm(*cylinder, small, now);
             arms += arm.x() * force.y() - arm.y() * force.x();
+            // The force on the rod acts where that on the pin does, d from the rod's end.
+            const Eigen::Vector2d d = joint->last().motion.distance.tail<2>();
+            arms += d.x() * force.y() - d.y() * force.x();
           }
           arms += height_moment(*cylinder, now) + frame_moment(*cylinder, motions);
         }

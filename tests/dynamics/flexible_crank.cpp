@@ -75,14 +75,14 @@ CrankEnd crank_at(double end, double stiffness, double tolerance) {
   Matrix3X tip = Matrix3X::Zero(3, 4);
   tip(0, 3) = 1.0;
   const double damping = 0.1 * std::sqrt(stiffness * kSliderMass);
-  system.add_element(std::make_unique<Bushing>(
+  system.add_element(std::make_unique<PairElement>(
       "crank pin", body.port(floating.arm(Vector3d::Zero()), floating.shape(Matrix3X::Zero(3, 4))),
       std::make_unique<DrivenPort>(Drive(kSpeed), Vector3d::Zero(), Vector3d(kCrank, 0.0, 0.0),
                                    Vector3d::UnitZ()),
-      stiffness, damping));
-  system.add_element(std::make_unique<Bushing>(
+      linear_joint(stiffness, damping)));
+  system.add_element(std::make_unique<PairElement>(
       "slider pin", body.port(floating.arm({kRod, 0.0, 0.0}), floating.shape(tip)),
-      std::make_unique<NodePort>(Vector3d::Zero(), block), stiffness, damping));
+      std::make_unique<NodePort>(Vector3d::Zero(), block), linear_joint(stiffness, damping)));
   StepOptions options;
   options.largest = 1e-4;
   options.first = 1e-11;

@@ -83,10 +83,10 @@ TEST(FloatingBody, TangentsAreTheDifferenceQuotientsOfTheForces) {
   SpinElement spin("truss", own, one.floating.body.frame, arbitrary(19, 3), arbitrary(19, 4));
   EXPECT_LT(testing::tangent_error(spin, y.tail(19), v.tail(19)), 1e-8);
   const Matrix3X slope = Eigen::Map<const MatrixXd>(arbitrary(36, 5).eval().data(), 3, 12);
-  Bushing bushing(
+  PairElement bushing(
       "bushing",
       std::make_unique<SpatialPort>(all, one.body.frame, one.arm(2), one.shape(2), slope),
-      std::make_unique<GroundPort>(Vector3d(0.1, 0.5, 0.2)), 3.0, 0.7);
+      std::make_unique<GroundPort>(Vector3d(0.1, 0.5, 0.2)), linear_joint(3.0, 0.7));
   EXPECT_LT(testing::tangent_error(bushing, y, v), 1e-8);
 }
 
@@ -205,10 +205,11 @@ double distance_from_nodal(double turns_per_second, double amplitude) {
   }
   for (const auto& [a, b] : one.truss.spring) {
     const auto i = static_cast<size_t>(a), j = static_cast<size_t>(b);
-    nodal.add_element(std::make_unique<LineSpring>(
+    nodal.add_element(std::make_unique<PairElement>(
         "spring", std::make_unique<NodePort>(Vector3d::Zero(), y[i]),
-        std::make_unique<NodePort>(Vector3d::Zero(), y[j]), one.truss.stiffness, 0.0,
-        (one.truss.node[i] - one.truss.node[j]).norm()));
+        std::make_unique<NodePort>(Vector3d::Zero(), y[j]),
+        std::make_unique<LineSpring>(one.truss.stiffness, 0.0,
+                                     (one.truss.node[i] - one.truss.node[j]).norm())));
   }
   StepOptions options;
   options.largest = 1e-3;
@@ -252,9 +253,9 @@ TEST(FloatingBody, InPureTranslationItIsEquationTen) {
   const FloatingBody floating = make_floating_body("box", shapes, start);
   System system;
   const SpatialBody body = add_spatial_body(system, floating.body);
-  system.add_element(std::make_unique<Bushing>(
+  system.add_element(std::make_unique<PairElement>(
       "outer", body.port(floating.arm(Vector3d::Zero()), floating.shape(Matrix3X::Zero(3, 1))),
-      std::make_unique<GroundPort>(Vector3d::Zero()), outer, 0.0));
+      std::make_unique<GroundPort>(Vector3d::Zero()), linear_joint(outer, 0.0)));
   StepOptions options;
   options.largest = 1e-3;
   options.accuracy = {1e-5, 1e-2, 1.0, 1.0};

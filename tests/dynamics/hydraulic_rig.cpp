@@ -5,7 +5,8 @@
 #include <numbers>
 
 #include "dynamics/body/rigid_body.hpp"
-#include "dynamics/force/port_element.hpp"
+#include "dynamics/force/joint_laws.hpp"
+#include "dynamics/force/pair_element.hpp"
 
 namespace clatter::dynamics::testing {
 
@@ -74,9 +75,9 @@ ShakenPlunger::ShakenPlunger(CheckValveSpec::Ball ball) {
   element = made.get();
   system.add_element(std::move(made));
   // Without force at the start: 109.6 N of the tensioner on 1e5 N/m.
-  system.add_element(std::make_unique<LineSpring>(
-      "chain", port(), std::make_unique<GroundPort>(Vector3d(0.1, 0.0, 0.0)), 1e5, 5.0,
-      0.1 + 109.635e-5));
+  system.add_element(std::make_unique<PairElement>(
+      "chain", port(), std::make_unique<GroundPort>(Vector3d(0.1, 0.0, 0.0)),
+      std::make_unique<LineSpring>(1e5, 5.0, 0.1 + 109.635e-5)));
   system.add_load({"shake", plunger, system.bodies()[0].shapes.row(0).transpose(),
                    [](double t) { return 80.0 * std::sin(2.0 * std::numbers::pi * 85.0 * t); }});
 }

@@ -72,7 +72,7 @@ void step_to_impact(Integrator& method, double end) {
 }
 
 /// The motion of a port by the y and v_y of its body's coordinates.
-PortState motion_of(const Port& port, double time, const VectorXd& y, const VectorXd& v) {
+PortState motion_of(Port& port, double time, const VectorXd& y, const VectorXd& v) {
   PortState at;
   port.motion(time, y, v, at);
   return at;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/force/joint.hpp"
+#include "dynamics/force/joint_laws.hpp"
+#include "dynamics/force/mechanism_port.hpp"
+#include "dynamics/force/pair_element.hpp"
 #include "tests/random_matrix.hpp"
 
 #include <gtest/gtest.h>
@@ -12,15 +14,17 @@ namespace {
 
 const SliderCrank kCrank(0.065, 0.21, 0.001, CrankClock{2000.0 * std::numbers::pi / 30.0});
 
-Joint pin_joint(double exponent) {
+PairElement pin_joint(double exponent) {
   RadialLaw law{1e-5, 1e7, exponent > 1.0 ? 1e11 : 1e9, exponent, 2e4};
   PointWeights nodes;
   for (const int k : {0, 2}) {
     nodes.add(k, 0.5, 0.0);
     nodes.add(k + 1, 0.0, 0.5);
   }
-  return Joint("pin", std::make_unique<LinearAnchor>(nodes),
-               std::make_unique<RodAnchor>(std::vector<int>{4, 5, 6}, kCrank, 0.14), law);
+  return PairElement(
+      "pin", std::make_unique<WeightedPort>(nodes),
+      std::make_unique<RodPort>(std::vector<int>{4, 5, 6}, kCrank, Eigen::Vector2d(0.0, 0.14)),
+      std::make_unique<RadialJoint>(law));
 }
 
 Eigen::VectorXd some(double scale, unsigned seed) { return scale * test::random_vector(7, seed); }
@@ -41,7 +45,7 @@ TEST(RadialLaw, IsSmoothAndItsEnergyIsItsIntegral) {
 
 TEST(Joint, TangentMatchesDifferences) {
   for (const double exponent : {1.0, 1.5}) {
-    Joint joint = pin_joint(exponent);
+    PairElement joint = pin_joint(exponent);
     const Stage stage{0.0031, 2e-6, 1, {2e-6}};
     const Eigen::VectorXd y = some(2e-5, 3), y_tilde = some(2e-5, 4);
     Response at, plus, minus;
@@ -61,7 +65,7 @@ TEST(Joint, TangentMatchesDifferences) {
 
 TEST(Joint, PowerBalancesExactly) {
   // force . v + d(stored)/dt + lost = input, with the stored energy differenced along the motion.
-  Joint joint = pin_joint(1.5);
+  PairElement joint = pin_joint(1.5);
   const double t = 0.0013, h = 1e-9;
   const Eigen::VectorXd y = some(3e-5, 5), v = some(0.3, 6);
   Response response;
@@ -79,7 +83,7 @@ TEST(Joint, PowerBalancesExactly) {
 }
 
 TEST(Joint, ForcesOfBothSidesCancel) {
-  Joint joint = pin_joint(1.0);
+  PairElement joint = pin_joint(1.0);
   Response response;
   joint.evaluate({0.0, 1e-6, 1, {}}, some(3e-5, 1), some(0.1, 2), false, response);
   const Eigen::VectorXd& f = response.force;

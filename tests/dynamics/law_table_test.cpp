@@ -5,8 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "dynamics/force/joint.hpp"
-#include "dynamics/force/table_bushing.hpp"
+#include "dynamics/force/joint_laws.hpp"
+#include "dynamics/force/mechanism_port.hpp"
+#include "dynamics/force/pair_element.hpp"
 #include "tests/dynamics/element_check.hpp"
 #include "tests/refusal.hpp"
 
@@ -86,60 +87,49 @@ TEST(RadialTable, ApproachesTheLawThatItWasMadeFrom) {
 }
 
 /// A joint on two coordinates whose damping varies.
-Joint table_joint() {
+PairElement table_joint() {
   const RisingTable force({0.0, 1e-5, 2e-5, 4e-5}, {0.0, 50.0, 400.0, 9000.0});
   const Spline damping(Spline::Kind::kMonotoneCubic, {0.0, 2e-5, 4e-5}, {1e3, 5e3, 2e4});
   PointWeights point;
   point.add(0, 1.0, 0.0);
   point.add(1, 0.0, 1.0);
-  return Joint("pin", std::make_unique<LinearAnchor>(point),
-               std::make_unique<LinearAnchor>(PointWeights{}), RadialTable(force, damping));
+  return PairElement("pin", std::make_unique<WeightedPort>(point),
+                     std::make_unique<WeightedPort>(PointWeights{}),
+                     std::make_unique<RadialJoint>(RadialTable(force, damping)));
 }
 
 TEST(RadialTable, TangentAndPowerOfItsJointAreExact) {
-  Joint joint = table_joint();
+  PairElement joint = table_joint();
   const Eigen::Vector2d y(1.7e-5, -1.2e-5), before(2e-6, 3e-6), v(0.3, 0.1);
   EXPECT_LT(testing::tangent_error(joint, {0.0, 3e-6, 1, {}}, y, before, 1e-11), 1e-7);
   EXPECT_LT(testing::power_error(joint, 0.0, y, v, 1e-8), 1e-7);
 }
 
-/// A law that takes the table's place in the test of the port element.
-class GivenBushing : public TableBushing {
- public:
-  using TableBushing::force;
-  using TableBushing::TableBushing;
-};
-
-TEST(TableBushing, HasItsForceAlongTheDistanceAndItsDerivatives) {
+TEST(RadialJoint, OfATableHasItsForceAlongTheDistanceAndItsDerivatives) {
   const RisingTable rising({0.0, 1e-3, 3e-3}, {0.0, 10.0, 90.0});
   const Spline damping(Spline::Kind::kMonotoneCubic, {0.0, 2e-3}, {5.0, 50.0});
-  const GivenBushing bushing("bushing 1", std::make_unique<GroundPort>(Eigen::Vector3d::Zero()),
-                             std::make_unique<GroundPort>(Eigen::Vector3d::Zero()),
-                             RadialTable(rising, damping));
+  RadialJoint joint(RadialTable(rising, damping));
+  const auto force = [&](const PairMotion& motion) { return joint.force({}, motion, true); };
   const PairMotion rest{{0.0, 1e-3, 0.0}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  EXPECT_LT((bushing.force(0.0, rest).force - Eigen::Vector3d(0, -10, 0)).norm(), 1e-12);
+  EXPECT_LT((force(rest).force - Eigen::Vector3d(0, -10, 0)).norm(), 1e-12);
   const PairMotion at{{4e-4, -9e-4, 3e-4}, {0.1, 0.2, -0.3}, Eigen::Vector3d::Zero()};
-  const PairForce law = bushing.force(0.0, at);
+  const PairForce law = force(at);
   for (int j = 0; j < 3; ++j) {
     PairMotion a = at, b = at;
     const double h = 1e-9;
     a.distance(j) += h;
     b.distance(j) -= h;
-    const Eigen::Vector3d column =
-        (bushing.force(0.0, a).force - bushing.force(0.0, b).force) / (2.0 * h);
+    const Eigen::Vector3d column = (force(a).force - force(b).force) / (2.0 * h);
     EXPECT_LT((column - law.by_distance.col(j).head<3>()).norm(), 1e-5 * law.by_distance.norm());
     a = b = at;
     a.velocity(j) += 1e-4;
     b.velocity(j) -= 1e-4;
-    const Eigen::Vector3d by_rate =
-        (bushing.force(0.0, a).force - bushing.force(0.0, b).force) / 2e-4;
+    const Eigen::Vector3d by_rate = (force(a).force - force(b).force) / 2e-4;
     EXPECT_LT((by_rate - law.by_rate.col(j).head<3>()).norm(), 1e-9 * law.by_rate.norm());
   }
-  EXPECT_EQ(
-      bushing
-          .force(0.0, {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()})
-          .force.norm(),
-      0.0);
+  EXPECT_EQ(force({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()})
+                .force.norm(),
+            0.0);
 }
 
 }  // namespace

@@ -43,9 +43,9 @@ TEST(Masses, AGramAKilogramAndATonKeepTheirOwnAccuracyInOneScene) {
     for (size_t k = 0; k < 3; ++k) {
       std::unique_ptr<Port> other = std::make_unique<GroundPort>(Vector3d::Zero());
       if (k < 2) other = std::make_unique<NodePort>(Vector3d::Zero(), y[k + 1]);
-      system.add_element(
-          std::make_unique<Bushing>("spring", std::make_unique<NodePort>(Vector3d::Zero(), y[k]),
-                                    std::move(other), mass[k] * frequency[k] * frequency[k], 0.0));
+      system.add_element(std::make_unique<PairElement>(
+          "spring", std::make_unique<NodePort>(Vector3d::Zero(), y[k]), std::move(other),
+          linear_joint(mass[k] * frequency[k] * frequency[k], 0.0)));
     }
     StepOptions options;
     options.largest = 1e-3;

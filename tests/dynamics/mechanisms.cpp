@@ -94,8 +94,8 @@ Andrews::Andrews(double stiffness, double damping) {
     return std::make_unique<GroundPort>(Vector3d(at.x(), at.y(), 0.0));
   };
   const auto join = [&](std::unique_ptr<Port> one, std::unique_ptr<Port> other) {
-    system.add_element(
-        std::make_unique<Bushing>("joint", std::move(one), std::move(other), stiffness, damping));
+    system.add_element(std::make_unique<PairElement>("joint", std::move(one), std::move(other),
+                                                     linear_joint(stiffness, damping)));
   };
   const Vector2d crank = kRr * c[0], fork = crank - kD * c[1];
   join(point(0, {0.0, 0.0}), ground({0.0, 0.0}));
@@ -108,8 +108,9 @@ Andrews::Andrews(double stiffness, double damping) {
   join(point(6, a), ground(a));
   join(point(3, a + kZt * c[4]), point(4, a + kZt * c[4]));
   join(point(5, a - kU * s[6]), point(6, a - kU * s[6]));
-  system.add_element(std::make_unique<LineSpring>("spring", point(2, b + kSd * c[2] - kSc * s[2]),
-                                                  ground(spring_end), kSpring, 0.0, kL0));
+  system.add_element(std::make_unique<PairElement>(
+      "spring", point(2, b + kSd * c[2] - kSc * s[2]), ground(spring_end),
+      std::make_unique<LineSpring>(kSpring, 0.0, kL0)));
   system.add_element(std::make_unique<Moment>(bodies[0][2], kMoment));
 }
 

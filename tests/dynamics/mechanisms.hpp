@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "dynamics/body/rigid_body.hpp"
-#include "dynamics/force/port_element.hpp"
+#include "dynamics/force/joint_laws.hpp"
+#include "dynamics/force/pair_element.hpp"
 #include "dynamics/integrate/integrator.hpp"
 #include "dynamics/integrate/spatial_body.hpp"
 #include "dynamics/integrate/system.hpp"

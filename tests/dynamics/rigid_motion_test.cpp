@@ -38,13 +38,13 @@ std::unique_ptr<Port> planar_port(int first, const Eigen::Vector2d& arm) {
 }
 
 TEST(PortElement, TangentsAreTheDifferenceQuotientsOfTheForces) {
-  Bushing bushing("bushing", spatial_port(0, {0.3, -0.2, 0.5}), planar_port(10, {0.4, 0.1}), 3.0,
-                  0.7);
-  LineSpring spring("spring", spatial_port(0, {0.3, -0.2, 0.5}), spatial_port(10, {0.0, 0.4, 0.1}),
-                    3.0, 0.7, 0.2);
-  Bushing node("node",
-               std::make_unique<NodePort>(Vector3d(0.2, 0.1, 0.0), std::vector{0, 1, 2, 3, 4, 5}),
-               spatial_port(6, {0.3, 0.2, 0.1}), 2.0, 0.4);
+  PairElement bushing("bushing", spatial_port(0, {0.3, -0.2, 0.5}), planar_port(10, {0.4, 0.1}),
+                      linear_joint(3.0, 0.7));
+  PairElement spring("spring", spatial_port(0, {0.3, -0.2, 0.5}), spatial_port(10, {0.0, 0.4, 0.1}),
+                     std::make_unique<LineSpring>(3.0, 0.7, 0.2));
+  PairElement node(
+      "node", std::make_unique<NodePort>(Vector3d(0.2, 0.1, 0.0), std::vector{0, 1, 2, 3, 4, 5}),
+      spatial_port(6, {0.3, 0.2, 0.1}), linear_joint(2.0, 0.4));
   SpinElement spin("body", {0, 1, 2, 3, 4, 5, 6}, arbitrary_frame(0), arbitrary(7, 3),
                    VectorXd::Zero(7));
   for (ForceElement* element :
@@ -76,7 +76,7 @@ TEST(Port, ADrivenShaftFollowsItsBearingButForItsOwnTurn) {
   const double h = 1e-6;
   const Vector3d place(0.2, 0.1, 0.0), centre(0.5, -0.3, 0.2), axis(0.6, 0.0, 0.8);
   DrivenPort port(Drive(3.0, 0.4), centre, {0.1, 0.2, 0.3}, axis,
-                        std::make_unique<NodePort>(place, std::vector<int>{0, 1, 2, 3, 4, 5}));
+                  std::make_unique<NodePort>(place, std::vector<int>{0, 1, 2, 3, 4, 5}));
   const VectorXd y = 1e-6 * arbitrary(6, 1), v = 1e-3 * arbitrary(6, 2);
   PortState at, before, after;
   port.motion(-h, y - h * v, v, before);
@@ -110,8 +110,8 @@ TEST(Port, RotationTurnsTheArmsOfABody) {
 
 TEST(PortElement, ForceAndMomentOfAPairBalance) {
   // Two spatial bodies: the sum of forces, and of moments about the origin, vanishes.
-  Bushing bushing("bushing", spatial_port(0, {0.3, -0.2, 0.5}), spatial_port(10, {0.4, 0.1, 0.2}),
-                  3.0, 0.7);
+  PairElement bushing("bushing", spatial_port(0, {0.3, -0.2, 0.5}),
+                      spatial_port(10, {0.4, 0.1, 0.2}), linear_joint(3.0, 0.7));
   const VectorXd y = arbitrary(20, 3), v = arbitrary(20, 4);
   Response response;
   bushing.evaluate({0.0, 0.1, 1, {}}, y, v, false, response);
@@ -127,8 +127,8 @@ TEST(PortElement, ForceAndMomentOfAPairBalance) {
 }
 
 TEST(PortElement, PowerIsTheWorkOnTheBodies) {
-  Bushing bushing("bushing", spatial_port(0, {0.3, -0.2, 0.5}), spatial_port(10, {0.4, 0.1, 0.2}),
-                  3.0, 0.7);
+  PairElement bushing("bushing", spatial_port(0, {0.3, -0.2, 0.5}),
+                      spatial_port(10, {0.4, 0.1, 0.2}), linear_joint(3.0, 0.7));
   VectorXd y = arbitrary(20, 5), v = arbitrary(20, 6);
   // Attitudes that turn as the angular velocities say, in the frames at rest (time 0).
   std::vector<Vector3d> spins;
@@ -148,16 +148,16 @@ TEST(PortElement, PowerIsTheWorkOnTheBodies) {
         response.force.segment<3>(first).dot(v.segment<3>(first)) +
         response.force.segment<3>(first + kMomentum).dot(spins[static_cast<size_t>(first / 10)]);
   const double h = 1e-6;
-  const auto stored = [&](double time) {
+  const auto power = [&](double time) {
     Response unused;
-    const VectorXd there = y + time * v;
-    bushing.evaluate({time, 0.1, 1, {}}, there, v, false, unused);
-    return bushing.power(there, v).stored;
+    const Stage stage{time, 0.1, 1, {}};
+    bushing.evaluate(stage, y + time * v, v, false, unused);
+    bushing.finish_stage(stage);
+    return bushing.power(y + time * v, v);
   };
-  const double rate = (stored(h) - stored(-h)) / (2.0 * h);
-  bushing.evaluate({0.0, 0.1, 1, {}}, y, v, false, response);
-  EXPECT_NEAR(-work, rate + bushing.power(y, v).lost, 1e-8);
-  EXPECT_GT(bushing.power(y, v).lost, 0.0);
+  const double rate = (power(h).stored - power(-h).stored) / (2.0 * h);
+  EXPECT_NEAR(-work, rate + power(0.0).lost, 1e-8);
+  EXPECT_GT(power(0.0).lost, 0.0);
 }
 
 /// A free body of these principal moments after a number of seconds in steps of at most `largest`.
@@ -250,9 +250,9 @@ TEST(RigidBody, SteadyTopPrecessesAtTheRateOfTheory) {
   const SpatialBody top =
       add_spatial_body(system, make_spatial_body("top", mass, {A0, A0, C}, start));
   const double k = 1e7;
-  system.add_element(std::make_unique<Bushing>("tip", top.port({0.0, 0.0, -arm}),
-                                               std::make_unique<GroundPort>(Vector3d::Zero()), k,
-                                               2.0 * std::sqrt(k * mass)));
+  system.add_element(std::make_unique<PairElement>("tip", top.port({0.0, 0.0, -arm}),
+                                                   std::make_unique<GroundPort>(Vector3d::Zero()),
+                                                   linear_joint(k, 2.0 * std::sqrt(k * mass))));
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(kSpatial);
   weight(2) = std::sqrt(mass);
   system.add_load({"gravity", 0, weight, [gravity](double) { return -gravity; }});
@@ -292,19 +292,19 @@ std::vector<double> rod_angles(double flywheel, double* residue = nullptr) {
     PlanarMotion turning;
     turning.spin = speed;
     const auto crank = testing::add_planar(system, "crank", 50.0, flywheel, turning);
-    system.add_element(std::make_unique<Bushing>(
+    system.add_element(std::make_unique<PairElement>(
         "bearing", std::make_unique<PlanarPort>(crank, Eigen::Vector2d::Zero()),
-        std::make_unique<GroundPort>(Vector3d::Zero()), 1e9, 1e4));
+        std::make_unique<GroundPort>(Vector3d::Zero()), linear_joint(1e9, 1e4)));
     crank_pin = std::make_unique<PlanarPort>(crank, pin);
   } else {
     crank_pin = std::make_unique<DrivenPort>(Drive(speed), Vector3d::Zero(),
                                              Vector3d(radius, 0.0, 0.0), Vector3d::UnitZ());
   }
-  system.add_element(
-      std::make_unique<Bushing>("pin", std::move(crank_pin), of_rod(-half), 1e8, 1e3));
-  system.add_element(std::make_unique<LineSpring>(
-      "spring", of_rod(half), std::make_unique<GroundPort>(Vector3d(0.3, -0.4, 0.0)), 200.0, 0.5,
-      0.1));
+  system.add_element(std::make_unique<PairElement>("pin", std::move(crank_pin), of_rod(-half),
+                                                   linear_joint(1e8, 1e3)));
+  system.add_element(std::make_unique<PairElement>(
+      "spring", of_rod(half), std::make_unique<GroundPort>(Vector3d(0.3, -0.4, 0.0)),
+      std::make_unique<LineSpring>(200.0, 0.5, 0.1)));
   EnergyBalance energy(system);
   StepOptions options;
   options.largest = 1e-3;

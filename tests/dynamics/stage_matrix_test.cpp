@@ -26,7 +26,8 @@ std::unique_ptr<System> chain(int links, bool closed) {
     at.push_back(testing::add_planar(*system, "link", 2.0, 0.5, start));
   }
   const auto join = [&](std::unique_ptr<Port> a, std::unique_ptr<Port> b) {
-    system->add_element(std::make_unique<Bushing>("joint", std::move(a), std::move(b), 1e4, 10.0));
+    system->add_element(std::make_unique<PairElement>("joint", std::move(a), std::move(b),
+                                                      linear_joint(1e4, 10.0)));
   };
   const auto end = [&](int k, double arm) -> std::unique_ptr<Port> {
     return std::make_unique<PlanarPort>(at[static_cast<size_t>(k)], Eigen::Vector2d(arm, 0.0));

@@ -7,7 +7,7 @@
 
 #include "core/base/units.hpp"
 #include "dynamics/chain/profile_contact.hpp"
-#include "dynamics/force/port_element.hpp"
+#include "dynamics/force/pair_element.hpp"
 #include "dynamics/profile/tooth_gap.hpp"
 #include "tests/dynamics/chain/open_chain.hpp"
 #include "tests/dynamics/chain/small_motion.hpp"
@@ -101,7 +101,7 @@ TEST(ChainOracle, PolygonOfADrivenSprocket) {
   const double speed = 3400.0 * pi / 30.0, pitch = 2.0 * pi / teeth;
   const ToothGap gap = iso606_gap(kLinkPitch, 5e-3, teeth);
   DrivenPort pin(Drive(-speed, 0.5 * pi + 0.5 * pitch), Vector3d::Zero(),
-                       {0.5 * gap.pitch_diameter, 0.0, 0.0}, Vector3d::UnitZ());
+                 {0.5 * gap.pitch_diameter, 0.0, 0.0}, Vector3d::UnitZ());
   PortState at;
   const auto move = [&](double share) {
     pin.motion(share * pitch / speed, VectorXd(), VectorXd(), at);

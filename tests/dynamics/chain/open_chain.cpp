@@ -39,8 +39,8 @@ std::unique_ptr<Port> OpenChain::end(int link, double side) const {
 }
 
 int OpenChain::pin(const std::string& name, std::unique_ptr<Port> a, std::unique_ptr<Port> b) {
-  system.add_element(
-      std::make_unique<Bushing>(name, std::move(a), std::move(b), law.stiffness, 0.0));
+  system.add_element(std::make_unique<PairElement>(name, std::move(a), std::move(b),
+                                                   linear_joint(law.stiffness, 0.0)));
   return system.elements() - 1;
 }
 

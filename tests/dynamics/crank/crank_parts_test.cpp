@@ -7,15 +7,16 @@
 #include <memory>
 #include <numbers>
 
+#include "dynamics/bearing/bearing_laws.hpp"
+#include "dynamics/bearing/film_bearing.hpp"
 #include "dynamics/body/crank_body.hpp"
 #include "dynamics/component/law_table.hpp"
 #include "dynamics/crank/crank_gyroscope.hpp"
 #include "dynamics/crank/crank_load.hpp"
-#include "dynamics/crank/film_bearing.hpp"
 #include "dynamics/crank/mean_torque.hpp"
-#include "dynamics/crank/table_bearing.hpp"
-#include "dynamics/force/crank_anchor.hpp"
-#include "dynamics/force/joint.hpp"
+#include "dynamics/force/joint_laws.hpp"
+#include "dynamics/force/mechanism_port.hpp"
+#include "dynamics/force/pair_element.hpp"
 #include "tests/dynamics/mechanisms.hpp"
 #include "tests/dynamics/slap_scene.hpp"
 #include "tests/refusal.hpp"
@@ -43,39 +44,46 @@ PointWeights axis_at(double arm) {
 }
 
 TEST(CrankPin, IsWhereTheTurnedCrankHasIt) {
-  const CrankPinAnchor pin(axis_at(0.2), 4, crank_of());
+  CrankPinPort pin(axis_at(0.2), 4, crank_of());
   const double t = 2e-3;
   const Eigen::Vector2d p = crank_of().crank_pin(t).position, w = crank_of().crank_pin(t).velocity;
   Eigen::VectorXd y(5), v = Eigen::VectorXd::Zero(5);
-  AnchorState state;
+  PortState state;
   // A quarter of a turn about +x: (y, z) -> (-z, y); 1 mm and 1 mrad of the axis.
   y << 1e-3, 0.0, 0.0, 1e-3, 0.5 * std::numbers::pi;
-  pin.find(t, y, v, state);
-  EXPECT_NEAR(state.d.x(), -p.y() - p.x() + 1e-3 + 0.2e-3, 1e-15);
-  EXPECT_NEAR(state.d.y(), p.x() - p.y(), 1e-15);
-  EXPECT_NEAR(state.rate.x(), -w.y() - w.x(), 1e-13);
-  EXPECT_NEAR(state.rate.y(), w.x() - w.y(), 1e-13);
-  EXPECT_LT((state.rate - state.prescribed).norm(), 1e-15);
+  pin.motion(t, y, v, state);
+  EXPECT_NEAR(state.position.y(), -p.y() - p.x() + 1e-3 + 0.2e-3, 1e-15);
+  EXPECT_NEAR(state.position.z(), p.x() - p.y(), 1e-15);
+  EXPECT_NEAR(state.velocity.y(), -w.y() - w.x(), 1e-13);
+  EXPECT_NEAR(state.velocity.z(), w.x() - w.y(), 1e-13);
+  EXPECT_LT((state.velocity - state.driven.head<3>()).norm(), 1e-15);
+  EXPECT_EQ(state.driven(3), crank_of().spin(t));
+  // It turns with its axes.
+  const Eigen::Vector3d pin_then(0.0, -p.y(), p.x());
+  EXPECT_LT((state.rotation * Eigen::Vector3d(0.0, 0.0, p.norm()) - pin_then).norm(), 1e-15);
 }
 
 TEST(CrankPin, ItsRateIsThatOfItsDisplacement) {
   for (const Rotation rotation : {Rotation::kForward, Rotation::kBackward}) {
-    const CrankPinAnchor pin(axis_at(0.2), 4, crank_of(rotation));
+    CrankPinPort pin(axis_at(0.2), 4, crank_of(rotation));
     const Eigen::VectorXd y = 0.3 * arbitrary(5, 1), v = 40.0 * arbitrary(5, 2);
-    AnchorState at, before, after;
+    PortState at, before, after;
     const double h = 1e-7, t = 3e-3;
-    pin.find(t, y, v, at);
-    pin.find(t - h, y - h * v, v, before);
-    pin.find(t + h, y + h * v, v, after);
-    EXPECT_LT(((after.d - before.d) / (2.0 * h) - at.rate).norm(), 1e-8 * at.rate.norm());
+    pin.motion(t, y, v, at);
+    pin.motion(t - h, y - h * v, v, before);
+    pin.motion(t + h, y + h * v, v, after);
+    EXPECT_LT(((after.position - before.position) / (2.0 * h) - at.velocity).norm(),
+              1e-8 * at.velocity.norm());
   }
 }
 
 TEST(CrankPin, TangentsOfItsJointAreDifferenceQuotients) {
   const RadialLaw law{1e-5, 1e4, 1e5, 1.0, 30.0};
   const SliderCrank crank = crank_of();
-  Joint joint("crank_pin", std::make_unique<RodAnchor>(std::vector<int>{5, 6, 7}, crank, -0.07),
-              std::make_unique<CrankPinAnchor>(axis_at(0.2), 4, crank), law);
+  PairElement joint(
+      "crank_pin", std::make_unique<CrankPinPort>(axis_at(0.2), 4, crank),
+      std::make_unique<RodPort>(std::vector<int>{5, 6, 7}, crank, Eigen::Vector2d(0.0, -0.07)),
+      std::make_unique<RadialJoint>(law));
   EXPECT_LT(tangent_error(joint, 0.2 * arbitrary(8, 1), arbitrary(8, 2)), 1e-6);
 }
 
@@ -121,14 +129,14 @@ RisingTable bearing_table(const std::string& text) {
 }
 
 TEST(CrankBearing, TangentsAreDifferenceQuotients) {
-  const ShaftAxes x{0};
-  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  const BearingPlace x{ShaftAxes{0}};
   JournalFilmOptions options;
   options.size = {85e-3, 30e-3, 1e-3, 10e-3};
   options.cells_around = 36;
   options.cells_along = 3;
-  TableBearing table("table", journal(), housing(), x, none, bearing_table(kRadial), 1e4);
-  FilmBearing film("film", journal(), housing(), x, none, options);
+  PairElement table("table", journal(), housing(),
+                    std::make_unique<RadialBearing>(x, RadialTable(bearing_table(kRadial), 1e4)));
+  PairElement film("film", journal(), housing(), std::make_unique<FilmBearing>(x, options));
   CrankGyroscope gyroscope({0, 1}, 0.8, kUneven, Rotation::kBackward);
   CrankLoadLaw law;
   law.constant = 300.0;
@@ -147,8 +155,9 @@ TEST(CrankBearing, TangentsAreDifferenceQuotients) {
 
 TEST(CrankBearing, OfATableHasItsForcesAndEndsWithIt) {
   const RisingTable table = bearing_table(kRadial);
-  TableBearing bearing("bearing crankshaft b", journal(), housing(), ShaftAxes{0},
-                       Eigen::Vector3d::Zero(), table, 0.0);
+  PairElement bearing("bearing crankshaft b", journal(), housing(),
+                      std::make_unique<RadialBearing>(BearingPlace{ShaftAxes{0}},
+                                                      RadialTable(table, 0.0), table.last()));
   Response response;
   Eigen::VectorXd y = Eigen::VectorXd::Zero(11);
   y(0) = 40e-6;

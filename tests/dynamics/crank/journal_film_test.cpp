@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The film of a full journal bearing on a grid.
-#include "dynamics/crank/journal_film.hpp"
+#include "dynamics/bearing/journal_film.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ JournalFilmOptions options_of(double width, int around = 72, int along = 6) {
 FilmForce steady(const JournalFilmOptions& options, const Vector2d& e, double spin) {
   JournalFilm film(options);
   const double c = options.size.radial_clearance();
-  return film.force({c * e, Vector2d::Zero(), spin}, kSteady, true, "film");
+  return film.force({c * e, Vector2d::Zero(), spin}, kSteady, true);
 }
 
 TEST(JournalFilm, ASteadyFilmIsThatOfTheImpedances) {
@@ -42,7 +42,7 @@ TEST(JournalFilm, ASteadyFilmIsThatOfTheImpedances) {
     for (const BearingModel model : {BearingModel::kButenschoen, BearingModel::kMoes}) {
       const double c = options.size.radial_clearance();
       const Vector2d known = BearingFilm(options.size, model)
-                                 .force({{c * e, 0.0}, Vector2d::Zero(), 178.0}, "b")
+                                 .force({{c * e, 0.0}, Vector2d::Zero(), 178.0})
                                  .value.head<2>();
       const double turn = (std::atan2(found.y(), found.x()) - std::atan2(known.y(), known.x()));
       std::printf("e %.1f, model %d: %8.2f N, film over impedance %+.1f %%, %+.1f deg\n", e,
@@ -88,8 +88,7 @@ TEST(JournalFilm, ACentredShortBearingIsSqueezedAsOcvirkSays) {
     JournalFilm film(options);
     // From centred with the velocity v to v kappa: a short stage, so that it stays centred.
     const Stage stage{0.0, 1e-9, 0, {}};
-    const FilmForce found =
-        film.force({{v * stage.kappa, 0.0}, {v, 0.0}, 0.0}, stage, false, "film");
+    const FilmForce found = film.force({{v * stage.kappa, 0.0}, {v, 0.0}, 0.0}, stage, false);
     error[k] = found.value(0) / (-exact * v) - 1.0;
     std::printf("%d cells: %+.3f %%\n", options.cells_along, 100.0 * error[k]);
     EXPECT_NEAR(found.value(1), 0.0, 1e-9 * exact * v);
@@ -145,7 +144,7 @@ TEST(JournalFilm, DerivativesAreDifferenceQuotients) {
     const Vector2d before = c * Vector2d(0.45, -0.3), at = c * Vector2d(0.47, -0.31);
     const auto force = [&](const Vector2d& offset) {
       JournalFilm film(options);  // its content is that of the gap before
-      return film.force({offset, (offset - before) / kappa, 178.0}, stage, true, "film");
+      return film.force({offset, (offset - before) / kappa, 178.0}, stage, true);
     };
     const FilmForce found = force(at);
     const double step = 1e-7 * c;
@@ -168,7 +167,7 @@ TEST(JournalFilm, ItsStateIsRestoredAndAJournalThatTouchesIsRefused) {
   const auto step = [&](JournalFilm& one, double e) {
     const Stage stage{0.0, 1e-4, 0, {}};
     one.begin_step();
-    const FilmForce found = one.force({{c * e, 0.0}, {0.0, 0.0}, 178.0}, stage, false, "film");
+    const FilmForce found = one.force({{c * e, 0.0}, {0.0, 0.0}, 178.0}, stage, false);
     one.finish_stage(stage);
     one.accept_step();
     return found.value;
@@ -181,7 +180,7 @@ TEST(JournalFilm, ItsStateIsRestoredAndAJournalThatTouchesIsRefused) {
       step(film, e);
       FAIL() << e;
     } catch (const StepRefused& refused) {
-      EXPECT_EQ(refused.kind(), "film: the journal touches the bearing");
+      EXPECT_EQ(refused.kind(), "the journal touches the bearing");
     }
 }
 

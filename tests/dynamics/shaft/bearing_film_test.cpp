@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/base/units.hpp"
-#include "dynamics/shaft/bearing_film.hpp"
+#include "dynamics/bearing/bearing_film.hpp"
 #include "tests/dynamics/mechanisms.hpp"
 
 namespace clatter::dynamics {
@@ -55,17 +55,16 @@ TEST(BearingFilm, ASteadyJournalIsPushedBackAndWithTheRotation) {
   const BearingFilm film(kSize, BearingModel::kButenschoen);
   const double spin = 178.0, size = kScale * map.wedge(0.5) * spin, beta = map.angle(0.5);
   for (const double direction : {1.0, -1.0}) {
-    const FilmForce found =
-        film.force(at({0.5, 0.0}, Vector2d::Zero(), direction * spin), "bearing");
+    const FilmForce found = film.force(at({0.5, 0.0}, Vector2d::Zero(), direction * spin));
     // 1e-6: the smoothing over 0.1 rad/s of 178.
     EXPECT_NEAR(found.value(0), -size * std::cos(beta), 1e-6 * size);
     EXPECT_NEAR(found.value(1), direction * size * std::sin(beta), 1e-6 * size);
   }
   // Squeezed outwards and inwards: by So_V of both signs.
   const double rate = 50.0;
-  EXPECT_NEAR(film.force(at({0.5, 0.0}, {rate, 0.0}, 0.0), "bearing").value(0),
+  EXPECT_NEAR(film.force(at({0.5, 0.0}, {rate, 0.0}, 0.0)).value(0),
               -kScale * map.squeeze(0.5) * rate, 2e-5 * kScale * map.squeeze(0.5) * rate);
-  EXPECT_NEAR(film.force(at({0.5, 0.0}, {-rate, 0.0}, 0.0), "bearing").value(0),
+  EXPECT_NEAR(film.force(at({0.5, 0.0}, {-rate, 0.0}, 0.0)).value(0),
               kScale * map.squeeze(-0.5) * rate, 2e-5 * kScale * map.squeeze(0.5) * rate);
 }
 
@@ -74,8 +73,7 @@ TEST(BearingFilm, AJournalThatWhirlsAtHalfItsSpeedHasNoWedge) {
   const double spin = 200.0;
   for (const BearingModel model : kModels) {
     const FilmForce still =
-        BearingFilm(kSize, model)
-            .force(at({0.3, 0.4}, 0.5 * spin * Vector2d(-0.4, 0.3), spin), "bearing");
+        BearingFilm(kSize, model).force(at({0.3, 0.4}, 0.5 * spin * Vector2d(-0.4, 0.3), spin));
     EXPECT_LT(still.value.head<2>().norm(), 1e-9 * kScale * spin);
     EXPECT_LT(still.value(2), 0.0);
   }
@@ -110,8 +108,8 @@ TEST(BearingFilm, BothImpedancesAgreeSteadyAndSqueezedOutwards) {
   const BearingFilm one(kSize, BearingModel::kButenschoen), other(kSize, BearingModel::kMoes);
   for (const double e : {0.2, 0.5, 0.8}) {
     for (const double rate : {0.0, 100.0, 300.0}) {
-      const Eigen::Vector3d a = one.force(at({e, 0.0}, {rate, 0.0}, 180.0), "a").value,
-                            b = other.force(at({e, 0.0}, {rate, 0.0}, 180.0), "b").value;
+      const Eigen::Vector3d a = one.force(at({e, 0.0}, {rate, 0.0}, 180.0)).value,
+                            b = other.force(at({e, 0.0}, {rate, 0.0}, 180.0)).value;
       // What both fits leave; at e = 0.8 they differ by 20 % in So_D.
       EXPECT_LT((a - b).head<2>().norm(), 0.25 * a.head<2>().norm()) << e << " " << rate;
       EXPECT_NEAR(a(2), b(2), 0.15 * std::abs(a(2)));
@@ -125,9 +123,9 @@ TEST(BearingFilm, FrictionIsThatOfPetroffAndTheWedge) {
     const double spin = 178.0;
     // Centred: pi eta b d^2 w / (2 psi).
     const double petroff = 0.5 * std::numbers::pi * 10e-3 * 16e-3 * 24e-3 * 24e-3 * spin / 2e-3;
-    EXPECT_NEAR(film.force(at(Vector2d::Zero(), Vector2d::Zero(), spin), "b").value(2), -petroff,
+    EXPECT_NEAR(film.force(at(Vector2d::Zero(), Vector2d::Zero(), spin)).value(2), -petroff,
                 1e-12 * petroff);
-    const FilmForce found = film.force(at({0.0, 0.6}, Vector2d::Zero(), spin), "b");
+    const FilmForce found = film.force(at({0.0, 0.6}, Vector2d::Zero(), spin));
     const double pushed = 0.5 * 0.6 * kSize.radial_clearance() * -found.value(0);
     EXPECT_NEAR(found.value(2), -petroff / 0.8 - pushed, 1e-12 * petroff);
     EXPECT_GT(pushed, 0.0);
@@ -136,7 +134,7 @@ TEST(BearingFilm, FrictionIsThatOfPetroffAndTheWedge) {
 
 /// The largest difference of the derivatives from central ones, relative to the largest of a row.
 double derivative_error(const BearingFilm& film, const JournalMotion& motion) {
-  const FilmForce found = film.force(motion, "bearing");
+  const FilmForce found = film.force(motion);
   // Far below the smoothing of rates, 0.1.
   const double c = kSize.radial_clearance();
   const double steps[] = {1e-7 * c, 1e-7 * c, 1e-5 * c, 1e-5 * c, 1e-5};
@@ -150,7 +148,7 @@ double derivative_error(const BearingFilm& film, const JournalMotion& motion) {
     *values[0][k] += steps[k];
     *values[1][k] -= steps[k];
     const Eigen::Vector3d difference =
-        (film.force(high, "b").value - film.force(low, "b").value) / (2.0 * steps[k]);
+        (film.force(high).value - film.force(low).value) / (2.0 * steps[k]);
     scaled.col(k) = found.by_motion.col(k);
     error.col(k) = difference - found.by_motion.col(k);
     for (int row = 0; row < 3; ++row)
@@ -182,9 +180,9 @@ TEST(BearingFilm, TheForceIsTheSameInAllDirectionsAndMirrored) {
     const BearingFilm film(kSize, model);
     for (const Vector2d& e : {Vector2d(0.02, 0.01), Vector2d(0.5, -0.3)}) {
       const Vector2d rate(20.0, 70.0);
-      const Eigen::Vector3d a = film.force(at(e, rate, 90.0), "b").value,
-                            turned = film.force(at(R * e, R * rate, 90.0), "b").value,
-                            seen = film.force(at(mirror * e, mirror * rate, -90.0), "b").value;
+      const Eigen::Vector3d a = film.force(at(e, rate, 90.0)).value,
+                            turned = film.force(at(R * e, R * rate, 90.0)).value,
+                            seen = film.force(at(mirror * e, mirror * rate, -90.0)).value;
       EXPECT_LT((turned.head<2>() - R * a.head<2>()).norm(), 1e-12 * a.norm());
       EXPECT_LT((seen.head<2>() - mirror * a.head<2>()).norm(), 1e-12 * a.norm());
       EXPECT_NEAR(seen(2), -a(2), 1e-12 * std::abs(a(2)));

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "dynamics/bearing/bearing_laws.hpp"
+#include "dynamics/force/joint_laws.hpp"
+#include "dynamics/force/pair_element.hpp"
 #include "dynamics/force/rotation.hpp"
 #include "dynamics/shaft/disc_gyroscope.hpp"
 #include "dynamics/shaft/disc_port.hpp"
-#include "dynamics/shaft/journal_bearing.hpp"
 #include "dynamics/shaft/shaft_beam.hpp"
 #include "dynamics/shaft/torsion_spring.hpp"
 #include "tests/dynamics/mechanisms.hpp"
@@ -67,10 +69,12 @@ TEST(DiscPort, IsARigidBodyToFirstOrderInTilt) {
 
 TEST(ShaftParts, TangentsAreDifferenceQuotients) {
   // On two discs, on a disc that only turns, on the ground.
-  Bushing two("b", disc_port(0, 0), disc_port(0, 6, Vector3d(0.01, 0.0, 0.02)), 3.0, 0.7);
+  PairElement two("b", disc_port(0, 0), disc_port(0, 6, Vector3d(0.01, 0.0, 0.02)),
+                  linear_joint(3.0, 0.7));
   EXPECT_LT(tangent_error(two, arbitrary(12, 1), arbitrary(12, 2)), 1e-8);
-  Bushing turning("b", std::make_unique<DiscPort>(std::vector<int>{0}, ShaftAxes{1}, kCentre, kArm),
-                  std::make_unique<GroundPort>(Vector3d(0.2, 0.0, 0.0)), 3.0, 0.7);
+  PairElement turning(
+      "b", std::make_unique<DiscPort>(std::vector<int>{0}, ShaftAxes{1}, kCentre, kArm),
+      std::make_unique<GroundPort>(Vector3d(0.2, 0.0, 0.0)), linear_joint(3.0, 0.7));
   EXPECT_LT(tangent_error(turning, arbitrary(1, 1), arbitrary(1, 2)), 1e-8);
   DiscGyroscope gyroscope("g", {0, 1, 2}, 0.3);
   EXPECT_LT(tangent_error(gyroscope, arbitrary(3, 1), arbitrary(3, 2)), 1e-8);
@@ -138,14 +142,13 @@ TEST(ShaftParts, AnAxialMomentKeepsTheAxisOfATiltedDisc) {
 }
 
 /// A bearing between a disc and a rigid body in space or in the plane.
-template <class Make>
-void expect_balance(const Make& make) {
+void expect_balance(std::unique_ptr<PairLaw> law) {
   // Journal: six coordinates at its centre; housing: a planar body about a point beside it.
   auto journal = std::make_unique<DiscPort>(std::vector<int>{0, 1, 2, 3, 4, 5}, ShaftAxes{2},
                                             Vector3d::Zero(), Vector3d::Zero());
   auto housing =
       std::make_unique<PlanarPort>(std::vector<int>{6, 7, 8}, Eigen::Vector2d(-0.3, 0.1));
-  const auto bearing = make(std::move(journal), std::move(housing));
+  PairElement bearing("b", std::move(journal), std::move(housing), std::move(law));
   VectorXd y = VectorXd::Zero(9), v = VectorXd::Zero(9);
   y.head<6>() << 8e-6, -5e-6, 0.0, 0.0, 0.0, 1.3;
   y.tail<3>() << 0.3 + 2e-6, -0.1 + 3e-6, 1e-5;
@@ -154,8 +157,8 @@ void expect_balance(const Make& make) {
   v(7) += 0.3 * v(8);
   Response response;
   const Stage stage{0.0, 1e-5, 1, {}};
-  bearing->evaluate(stage, y, v, true, response);
-  const VectorXd& f = response.force;
+  bearing.evaluate(stage, y, v, true, response);
+  const VectorXd f = response.force;
   EXPECT_GT(f.head<2>().norm(), 1.0);
   EXPECT_LT((f.head<2>() + f.segment<2>(6)).norm(), 1e-13 * f.head<2>().norm());
   // Moments about the scene's origin.
@@ -163,26 +166,24 @@ void expect_balance(const Make& make) {
                on_housing = f(8) + y(6) * f(7) - y(7) * f(6);
   EXPECT_NEAR(on_journal + on_housing, 0.0, 1e-13 * f.head<2>().norm());
   const double h = 1e-7;
-  const double storing =
-      (bearing->power(y + h * v, v).stored - bearing->power(y - h * v, v).stored) / (2.0 * h);
-  EXPECT_NEAR(f.dot(v), -bearing->power(y, v).lost - storing, 1e-6 * std::abs(f.dot(v)));
   // The same motion, seen from a ground that moves and turns slowly with the housing.
   EXPECT_LT((response.tangent.row(0) + response.tangent.row(6)).norm(),
             1e-10 * response.tangent.row(0).norm());
+  const auto power = [&](const VectorXd& at) {
+    bearing.evaluate(stage, at, v, false, response);
+    bearing.finish_stage(stage);
+    return bearing.power(at, v);
+  };
+  const double storing = (power(y + h * v).stored - power(y - h * v).stored) / (2.0 * h);
+  EXPECT_NEAR(f.dot(v), -power(y).lost - storing, 1e-6 * std::abs(f.dot(v)));
 }
 
 TEST(ShaftParts, ABearingOnAMovingHousingBalancesForceMomentAndPower) {
   const BearingSize size{24e-3, 16e-3, 2e-3, 10e-3};
+  const BearingPlace z{ShaftAxes{2}};
   for (const BearingModel model : {BearingModel::kButenschoen, BearingModel::kMoes})
-    expect_balance([&](std::unique_ptr<Port> a, std::unique_ptr<Port> b) {
-      return std::make_unique<JournalBearing>("b", std::move(a), std::move(b), ShaftAxes{2},
-                                              Vector3d::Zero(), ThrustLaw{},
-                                              BearingFilm(size, model));
-    });
-  expect_balance([&](std::unique_ptr<Port> a, std::unique_ptr<Port> b) {
-    return std::make_unique<LinearBearing>("b", std::move(a), std::move(b), ShaftAxes{2},
-                                           Vector3d::Zero(), ThrustLaw{}, 1e7, 1e3);
-  });
+    expect_balance(std::make_unique<ImpedanceBearing>(z, BearingFilm(size, model)));
+  expect_balance(std::make_unique<RadialBearing>(z, RadialLaw{0.0, 1e7, 0.0, 1.0, 1e3}));
 }
 
 TEST(ShaftParts, BearingTangentsAreDifferenceQuotients) {
@@ -200,13 +201,16 @@ TEST(ShaftParts, BearingTangentsAreDifferenceQuotients) {
     y.tail<3>() += Vector3d(kCentre(u), kCentre(w), 0.4);
     const VectorXd v = arbitrary(9, 2);
     for (const BearingModel model : {BearingModel::kButenschoen, BearingModel::kMoes}) {
-      JournalBearing bearing("b", disc_port(axis, 0, Vector3d(0.01, 0.02, 0.01)), housing(),
-                             ShaftAxes{axis}, Vector3d::Constant(0.01), {2.0, 0.1},
-                             BearingFilm(size, model));
+      PairElement bearing("b", disc_port(axis, 0, Vector3d(0.01, 0.02, 0.01)), housing(),
+                          std::make_unique<ImpedanceBearing>(
+                              BearingPlace{ShaftAxes{axis}, Vector3d::Constant(0.01), {2.0, 0.1}},
+                              BearingFilm(size, model)));
       EXPECT_LT(tangent_error(bearing, y, v), 1e-6) << axis;
     }
-    LinearBearing linear("b", disc_port(axis, 0), housing(), ShaftAxes{axis}, Vector3d::Zero(),
-                         {2.0, 0.1}, 3.0, 0.5);
+    PairElement linear(
+        "b", disc_port(axis, 0), housing(),
+        std::make_unique<RadialBearing>(BearingPlace{ShaftAxes{axis}, Vector3d::Zero(), {2.0, 0.1}},
+                                        RadialLaw{0.0, 3.0, 0.0, 1.0, 0.5}));
     EXPECT_LT(tangent_error(linear, y, v), 1e-7) << axis;
   }
 }

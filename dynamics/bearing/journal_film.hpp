@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/bearing/bearing_film.hpp"
 #include "dynamics/film/oil_content.hpp"
 #include "dynamics/film/reynolds.hpp"
 #include "dynamics/force/element.hpp"
-#include "dynamics/shaft/bearing_film.hpp"
 
 namespace clatter::dynamics {
 
@@ -39,10 +39,9 @@ class JournalFilm {
   explicit JournalFilm(const JournalFilmOptions& options);
 
   /// At a stage. Derivatives by the offset are those at a fixed stage, with the squeeze; those by
-  /// the velocity are 0, those by the spin are of Couette's part of the moment only. StepRefused,
-  /// with `name`, where the journal touches the bearing or the film is not solved.
-  FilmForce force(const JournalMotion& motion, const Stage& stage, bool with_derivatives,
-                  const std::string& name);
+  /// the velocity are 0, those by the spin are of Couette's part of the moment only. StepRefused
+  /// where the journal touches the bearing or the film is not solved.
+  FilmForce force(const JournalMotion& motion, const Stage& stage, bool with_derivatives);
   void begin_step() { oil_.begin_step(); }
   /// Keeps the last solution as that of the stage.
   void finish_stage(const Stage& stage);

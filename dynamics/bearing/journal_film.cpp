@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/crank/journal_film.hpp"
+#include "dynamics/bearing/journal_film.hpp"
 
 #include <fmt/format.h>
 
@@ -45,12 +45,12 @@ void JournalFilm::set_gap(const Eigen::Vector2d& offset) {
   cells_.set_smooth(gap_);
 }
 
-FilmForce JournalFilm::force(const JournalMotion& motion, const Stage& stage, bool with_derivatives,
-                             const std::string& name) {
+FilmForce JournalFilm::force(const JournalMotion& motion, const Stage& stage,
+                             bool with_derivatives) {
   const BearingSize& size = options_.size;
   const double found = motion.offset.norm() / size.radial_clearance();
   if (!(found < BearingFilm::kLargest))
-    throw StepRefused(name + ": the journal touches the bearing",
+    throw StepRefused("the journal touches the bearing",
                       fmt::format("relative eccentricity {:.6g}", found));
   if (!running_) {
     set_gap(motion.offset - stage.kappa * motion.velocity);
@@ -64,7 +64,7 @@ FilmForce JournalFilm::force(const JournalMotion& motion, const Stage& stage, bo
   try {
     reynolds_.solve(cells_, oil_.before(reynolds_, stage.weights), inner);
   } catch (const NumericsError& error) {
-    throw StepRefused(name + ": the film's equations were not solved", error.what());
+    throw StepRefused("the film's equations were not solved", error.what());
   }
   FilmForce law;
   law.by_motion.setZero();

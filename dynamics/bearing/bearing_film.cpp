@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/shaft/bearing_film.hpp"
+#include "dynamics/bearing/bearing_film.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "dynamics/bearing/dual.hpp"
 #include "dynamics/force/element.hpp"
-#include "dynamics/shaft/dual.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -71,11 +71,11 @@ BearingFilm::BearingFilm(const BearingSize& size, BearingModel model)
       butenschoen_(size.width / size.diameter),
       moes_(size.width / size.diameter) {}
 
-FilmForce BearingFilm::force(const JournalMotion& motion, const std::string& name) const {
+FilmForce BearingFilm::force(const JournalMotion& motion) const {
   const double c = size_.radial_clearance();
   const double found = eccentricity(motion);
   if (!(found < kLargest))
-    throw StepRefused(name + ": the journal touches the bearing",
+    throw StepRefused("the journal touches the bearing",
                       fmt::format("relative eccentricity {:.6g}", found));
   const auto variable = [](double value, int k) { return Number::variable(value, k); };
   const Orbit at{variable(motion.offset.x() / c, 0), variable(motion.offset.y() / c, 1),

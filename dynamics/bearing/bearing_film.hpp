@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "dynamics/shaft/bearing_maps.hpp"
+#include "dynamics/bearing/bearing_maps.hpp"
 
 namespace clatter::dynamics {
 
@@ -54,9 +54,8 @@ class BearingFilm {
   double eccentricity(const JournalMotion& motion) const {
     return motion.offset.norm() / size_.radial_clearance();
   }
-  /// StepRefused, with `name`, where the journal touches the bearing: e above kLargest, or no
-  /// number.
-  FilmForce force(const JournalMotion& motion, const std::string& name) const;
+  /// StepRefused where the journal touches the bearing: e above kLargest, or no number.
+  FilmForce force(const JournalMotion& motion) const;
 
  private:
   BearingSize size_;
