@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "dynamics/bearing/dual.hpp"
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 
 namespace clatter::dynamics {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "dynamics/bearing/bearing_film.hpp"
 #include "dynamics/bearing/shaft_axes.hpp"
-#include "dynamics/force/pair_law.hpp"
-#include "dynamics/force/radial_table.hpp"
+#include "dynamics/law/pair_law.hpp"
+#include "dynamics/law/radial_table.hpp"
 
 namespace clatter::dynamics {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "dynamics/bearing/bearing_film.hpp"
+#include "dynamics/element/element.hpp"
 #include "dynamics/film/oil_content.hpp"
 #include "dynamics/film/reynolds.hpp"
-#include "dynamics/force/element.hpp"
 
 namespace clatter::dynamics {
 

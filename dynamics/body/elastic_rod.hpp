@@ -6,7 +6,6 @@
 #include "core/rom/reduced_model.hpp"
 #include "dynamics/body/modal_body.hpp"
 #include "dynamics/body/rigid_rod.hpp"
-#include "dynamics/force/rod_frame.hpp"
 
 namespace clatter::dynamics {
 
@@ -14,6 +13,16 @@ namespace clatter::dynamics {
 /// engine's axes, and of its rotation about x, as those of a rigid rod; then n small motions in the
 /// rod's own axes, three rigid ones out of the crank's plane and the elastic modes.
 inline constexpr int kRodPlanar = 3, kRodRigid = 6;
+
+/// What the small motions zeta of a rod, u = N zeta in its own axes about its centre of mass,
+/// change of its inertia about x and of its angular momentum:
+///   J = I + 2 g zeta + zeta^T S zeta,   L = J w + zeta^T G zeta'
+struct RodCoupling {
+  Eigen::VectorXd stretch;      // g, integral of rho (y N_y + z N_z), n
+  Eigen::MatrixXd square;       // S, integral of rho (N_y^T N_y + N_z^T N_z), n x n
+  Eigen::MatrixXd circulation;  // G, integral of rho (N_y^T N_z - N_z^T N_y), n x n, skew
+  double inertia = 0.0;         // I [kg m2]
+};
 
 /// An elastic rod; its own axes: x along the crankshaft, z from the big end to the small end. All
 /// coordinates are mass-normalised and have no mass in common.

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "dynamics/body/modal_body.hpp"
-#include "dynamics/force/spatial_frame.hpp"
+#include "dynamics/body/spatial_frame.hpp"
 
 namespace clatter::dynamics {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics/chain/link.hpp"
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 
 namespace clatter::dynamics {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/body/port.hpp"
 #include "dynamics/chain/link.hpp"
 #include "dynamics/chain/tooth_count.hpp"
-#include "dynamics/force/element.hpp"
-#include "dynamics/force/port.hpp"
+#include "dynamics/element/element.hpp"
 #include "dynamics/profile/mattress.hpp"
 
 namespace clatter::dynamics {

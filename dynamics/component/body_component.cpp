@@ -9,7 +9,7 @@
 #include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/component/component_keys.hpp"
 #include "dynamics/component/rigid_body_component.hpp"
-#include "dynamics/force/moving_frame.hpp"
+#include "dynamics/element/moving_frame.hpp"
 
 namespace clatter::dynamics {
 namespace {

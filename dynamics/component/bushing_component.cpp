@@ -2,8 +2,8 @@
 #include "dynamics/component/bushing_component.hpp"
 
 #include "dynamics/component/component_catalogue.hpp"
-#include "dynamics/force/joint_laws.hpp"
-#include "dynamics/force/pair_element.hpp"
+#include "dynamics/element/pair_element.hpp"
+#include "dynamics/law/joint_laws.hpp"
 
 namespace clatter::dynamics {
 

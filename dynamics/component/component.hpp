@@ -13,8 +13,8 @@
 #include "core/base/h5_file.hpp"
 #include "dynamics/component/effects.hpp"
 #include "dynamics/component/loaded_body.hpp"
-#include "dynamics/force/history.hpp"
 #include "dynamics/integrate/stage_state.hpp"
+#include "dynamics/law/history.hpp"
 
 namespace clatter::film {
 class PistonLiner;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "dynamics/component/component_keys.hpp"
-#include "dynamics/force/radial_table.hpp"
+#include "dynamics/law/radial_table.hpp"
 
 namespace clatter::dynamics {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "dynamics/body/spatial_frame.hpp"
 #include "dynamics/component/component_keys.hpp"
-#include "dynamics/force/spatial_frame.hpp"
 #include "dynamics/given/load_table.hpp"
 
 namespace clatter::dynamics {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "dynamics/force/spatial_port.hpp"
+#include "dynamics/body/spatial_port.hpp"
 #include "dynamics/integrate/spatial_body.hpp"
 
 namespace clatter::dynamics {

@@ -9,9 +9,9 @@
 #include <set>
 #include <string>
 
+#include "dynamics/body/port.hpp"
 #include "dynamics/component/loaded_body.hpp"
 #include "dynamics/component/run_time.hpp"
-#include "dynamics/force/port.hpp"
 #include "dynamics/given/crank_clock.hpp"
 #include "dynamics/given/drive.hpp"
 #include "dynamics/integrate/system.hpp"

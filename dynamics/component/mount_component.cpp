@@ -7,7 +7,7 @@
 #include "dynamics/component/block_table.hpp"
 #include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/component/component_keys.hpp"
-#include "dynamics/force/mount.hpp"
+#include "dynamics/element/mount.hpp"
 
 namespace clatter::dynamics {
 namespace {

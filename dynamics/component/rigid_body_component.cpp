@@ -10,9 +10,9 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/body/rigid_body.hpp"
+#include "dynamics/body/spatial_port.hpp"
 #include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/component/component_keys.hpp"
-#include "dynamics/force/spatial_port.hpp"
 
 namespace clatter::dynamics {
 namespace {

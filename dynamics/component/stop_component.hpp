@@ -8,7 +8,7 @@
 
 #include "dynamics/component/component.hpp"
 #include "dynamics/component/component_keys.hpp"
-#include "dynamics/force/stop.hpp"
+#include "dynamics/element/stop.hpp"
 
 namespace clatter::dynamics {
 

@@ -11,9 +11,9 @@
 #include "core/base/units.hpp"
 #include "dynamics/bearing/bearing_laws.hpp"
 #include "dynamics/bearing/film_bearing.hpp"
+#include "dynamics/body/crank_port.hpp"
 #include "dynamics/component/law_table.hpp"
-#include "dynamics/force/crank_port.hpp"
-#include "dynamics/force/pair_element.hpp"
+#include "dynamics/element/pair_element.hpp"
 
 namespace clatter::dynamics {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "dynamics/force/crank_port.hpp"
-#include "dynamics/force/element.hpp"
+#include "dynamics/body/crank_port.hpp"
+#include "dynamics/element/element.hpp"
 
 namespace clatter::dynamics {
 

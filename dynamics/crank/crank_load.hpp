@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/body/crank_port.hpp"
 #include "dynamics/component/run_time.hpp"
 #include "dynamics/crank/mean_torque.hpp"
-#include "dynamics/force/crank_port.hpp"
-#include "dynamics/force/element.hpp"
-#include "dynamics/force/table_force.hpp"
+#include "dynamics/element/element.hpp"
+#include "dynamics/element/table_force.hpp"
 #include "dynamics/given/spline.hpp"
 
 namespace clatter::dynamics {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The crank's centre as a point of the block.
+#include "dynamics/body/mechanism_port.hpp"
 #include "dynamics/cylinder/cylinder_bodies.hpp"
-#include "dynamics/force/mechanism_port.hpp"
 
 namespace clatter::dynamics {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/cylinder/crank_pin.hpp"
 
+#include "dynamics/body/mechanism_port.hpp"
 #include "dynamics/cylinder/crank_centre.hpp"
-#include "dynamics/force/mechanism_port.hpp"
 
 namespace clatter::dynamics {
 namespace {

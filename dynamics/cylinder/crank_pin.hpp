@@ -3,8 +3,8 @@
 // The crank pin as a point of the crankshaft.
 #include <memory>
 
+#include "dynamics/body/mechanism_port.hpp"
 #include "dynamics/cylinder/cylinder_bodies.hpp"
-#include "dynamics/force/mechanism_port.hpp"
 #include "dynamics/given/crank.hpp"
 
 namespace clatter::dynamics {

@@ -10,7 +10,7 @@
 #include "dynamics/cylinder/real_crank_element.hpp"
 #include "dynamics/cylinder/ring_table.hpp"
 #include "dynamics/cylinder/shape_scale.hpp"
-#include "dynamics/force/pin_guide.hpp"
+#include "dynamics/element/pin_guide.hpp"
 
 namespace clatter::dynamics {
 namespace {

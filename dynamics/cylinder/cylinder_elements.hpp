@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "dynamics/cylinder/cylinder_bodies.hpp"
+#include "dynamics/element/element.hpp"
 #include "dynamics/film/piston_liner.hpp"
-#include "dynamics/force/element.hpp"
 #include "dynamics/given/crank.hpp"
 #include "dynamics/given/spline.hpp"
 

@@ -9,12 +9,12 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/body/elastic_rod.hpp"
+#include "dynamics/body/mechanism_port.hpp"
 #include "dynamics/cylinder/cylinder_catalogue.hpp"
 #include "dynamics/cylinder/real_crank_element.hpp"
-#include "dynamics/force/massless_rod.hpp"
-#include "dynamics/force/mechanism_port.hpp"
-#include "dynamics/force/pin_guide.hpp"
-#include "dynamics/force/rod_frame.hpp"
+#include "dynamics/element/massless_rod.hpp"
+#include "dynamics/element/pin_guide.hpp"
+#include "dynamics/element/rod_frame.hpp"
 
 namespace clatter::dynamics {
 namespace {

@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
+#include "dynamics/body/mechanism_port.hpp"
 #include "dynamics/component/effects.hpp"
 #include "dynamics/cylinder/cylinder_bodies.hpp"
-#include "dynamics/force/element.hpp"
-#include "dynamics/force/mechanism_port.hpp"
+#include "dynamics/element/element.hpp"
 #include "dynamics/given/crank.hpp"
 
 namespace clatter::dynamics {

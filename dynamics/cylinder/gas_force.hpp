@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "dynamics/cylinder/cylinder_bodies.hpp"
-#include "dynamics/force/element.hpp"
-#include "dynamics/force/table_force.hpp"
+#include "dynamics/element/element.hpp"
+#include "dynamics/element/table_force.hpp"
 #include "dynamics/given/crank.hpp"
 #include "dynamics/given/spline.hpp"
 

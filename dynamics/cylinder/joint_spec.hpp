@@ -7,8 +7,8 @@
 
 #include "core/keys/table.hpp"
 #include "dynamics/bearing/bearing_film.hpp"
-#include "dynamics/force/joint_laws.hpp"
-#include "dynamics/force/radial_table.hpp"
+#include "dynamics/law/joint_laws.hpp"
+#include "dynamics/law/radial_table.hpp"
 
 namespace clatter::dynamics {
 

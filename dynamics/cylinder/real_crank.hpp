@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 #include "dynamics/given/crank.hpp"
 
 namespace clatter::dynamics {

@@ -10,7 +10,7 @@
 
 #include "dynamics/cylinder/cylinder_bodies.hpp"
 #include "dynamics/cylinder/real_crank.hpp"
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 
 namespace clatter::dynamics {
 

@@ -7,8 +7,8 @@
 #include "dynamics/bearing/bearing_laws.hpp"
 #include "dynamics/cylinder/crank_pin.hpp"
 #include "dynamics/cylinder/cylinder_rod.hpp"
-#include "dynamics/force/joint_laws.hpp"
-#include "dynamics/force/pair_element.hpp"
+#include "dynamics/element/pair_element.hpp"
+#include "dynamics/law/joint_laws.hpp"
 
 namespace clatter::dynamics {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "dynamics/cylinder/cylinder_bodies.hpp"
 #include "dynamics/cylinder/cylinder_elements.hpp"
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 #include "dynamics/given/crank.hpp"
 
 namespace clatter::dynamics {

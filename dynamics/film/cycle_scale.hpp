@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "dynamics/element/element.hpp"
 #include "dynamics/film/gap.hpp"
-#include "dynamics/force/element.hpp"
 
 namespace clatter::film {
 

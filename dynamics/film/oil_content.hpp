@@ -10,7 +10,7 @@
 namespace clatter::film {
 
 /// Content m [m] of each cell: m_i = m_n + sum_{j<i} w_j m'_j + kappa m'_i at stage i, as all
-/// states (dynamics/force/element.hpp).
+/// states (dynamics/element/element.hpp).
 ///
 /// The two methods of second order are not positive: at Courant numbers above 2.4 the earlier
 /// stages of SDIRK2 drag more oil out of a cell than it held. `before` reduces such outflow face by

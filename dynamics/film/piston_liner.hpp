@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/element/element.hpp"
 #include "dynamics/film/axial_motion.hpp"
 #include "dynamics/film/gap_map.hpp"
 #include "dynamics/film/piston_liner_options.hpp"
 #include "dynamics/film/reynolds.hpp"
-#include "dynamics/force/element.hpp"
 
 namespace clatter::film {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 
 namespace clatter::dynamics {
 

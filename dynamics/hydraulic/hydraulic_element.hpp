@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dynamics/body/modal_body.hpp"
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 #include "dynamics/hydraulic/chamber.hpp"
 #include "dynamics/hydraulic/plunger_axis.hpp"
 

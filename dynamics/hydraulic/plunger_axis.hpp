@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "dynamics/force/port.hpp"
+#include "dynamics/body/port.hpp"
 
 namespace clatter::dynamics {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/force/table_force.hpp"
+#include "dynamics/element/table_force.hpp"
 #include "dynamics/integrate/accuracy.hpp"
 #include "dynamics/integrate/stage_state.hpp"
 #include "dynamics/integrate/system.hpp"

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "dynamics/force/spin_element.hpp"
+#include "dynamics/element/spin_element.hpp"
 
 namespace clatter::dynamics {
 

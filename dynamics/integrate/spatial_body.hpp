@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "dynamics/force/spatial_port.hpp"
+#include "dynamics/body/spatial_port.hpp"
 #include "dynamics/integrate/stage_state.hpp"
 #include "dynamics/integrate/system.hpp"
 

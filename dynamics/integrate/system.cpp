@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "dynamics/force/spatial_frame.hpp"
+#include "dynamics/body/spatial_frame.hpp"
 
 namespace clatter::dynamics {
 

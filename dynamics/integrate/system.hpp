@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "dynamics/body/modal_body.hpp"
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 #include "dynamics/integrate/stage_state.hpp"
 
 namespace clatter::dynamics {

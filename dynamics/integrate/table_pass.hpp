@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "dynamics/force/table_force.hpp"
+#include "dynamics/element/table_force.hpp"
 #include "dynamics/integrate/stage_state.hpp"
 
 namespace clatter::dynamics {

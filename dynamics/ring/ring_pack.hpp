@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/element/element.hpp"
 #include "dynamics/film/axial_motion.hpp"
 #include "dynamics/film/viscosity.hpp"
-#include "dynamics/force/element.hpp"
 #include "dynamics/given/motion.hpp"
 #include "dynamics/ring/ring_lateral.hpp"
 #include "dynamics/ring/ring_law.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/force/history.hpp"
+#include "dynamics/law/history.hpp"
 #include "dynamics/run/model.hpp"
 
 namespace clatter::dynamics {

@@ -6,8 +6,8 @@
 #include "core/dense/exponential.hpp"
 #include "core/dense/solve.hpp"
 #include "core/dense/symmetric_eigen.hpp"
-#include "dynamics/force/massless_rod.hpp"
-#include "dynamics/force/mount.hpp"
+#include "dynamics/element/massless_rod.hpp"
+#include "dynamics/element/mount.hpp"
 
 namespace clatter::dynamics {
 namespace {

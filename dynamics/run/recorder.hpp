@@ -3,7 +3,7 @@
 // Results of one cycle (or of an entire run), which go to the run file block by block.
 #include <vector>
 
-#include "dynamics/force/history.hpp"
+#include "dynamics/law/history.hpp"
 #include "dynamics/run/column_stream.hpp"
 #include "dynamics/run/component_fields.hpp"
 #include "dynamics/run/energy.hpp"

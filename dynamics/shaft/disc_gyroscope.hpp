@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 
 namespace clatter::dynamics {
 

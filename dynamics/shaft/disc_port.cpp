@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <utility>
 
-#include "dynamics/force/rotation.hpp"
+#include "dynamics/body/rotation.hpp"
 
 namespace clatter::dynamics {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dynamics/bearing/shaft_axes.hpp"
-#include "dynamics/force/port.hpp"
+#include "dynamics/body/port.hpp"
 
 namespace clatter::dynamics {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics/bearing/shaft_axes.hpp"
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 #include "dynamics/shaft/shaft_section.hpp"
 
 namespace clatter::dynamics {

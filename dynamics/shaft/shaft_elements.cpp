@@ -9,7 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/bearing/bearing_laws.hpp"
-#include "dynamics/force/pair_element.hpp"
+#include "dynamics/element/pair_element.hpp"
 #include "dynamics/shaft/disc_gyroscope.hpp"
 #include "dynamics/shaft/shaft_beam.hpp"
 

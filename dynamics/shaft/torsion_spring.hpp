@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 
 namespace clatter::dynamics {
 

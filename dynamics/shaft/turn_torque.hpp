@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/force/element.hpp"
-#include "dynamics/force/table_force.hpp"
+#include "dynamics/element/element.hpp"
+#include "dynamics/element/table_force.hpp"
 #include "dynamics/given/cam_law.hpp"
 #include "dynamics/given/periodic_spline.hpp"
 

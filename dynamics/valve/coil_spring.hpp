@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "dynamics/body/modal_body.hpp"
-#include "dynamics/force/element.hpp"
-#include "dynamics/force/port.hpp"
+#include "dynamics/body/port.hpp"
+#include "dynamics/element/element.hpp"
 #include "dynamics/valve/coil_law.hpp"
 
 namespace clatter::dynamics {

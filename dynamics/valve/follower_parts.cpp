@@ -10,9 +10,9 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/body/rigid_body.hpp"
-#include "dynamics/force/joint_laws.hpp"
-#include "dynamics/force/pair_element.hpp"
-#include "dynamics/force/stop.hpp"
+#include "dynamics/element/pair_element.hpp"
+#include "dynamics/element/stop.hpp"
+#include "dynamics/law/joint_laws.hpp"
 
 namespace clatter::dynamics {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/force/element.hpp"
-#include "dynamics/force/port.hpp"
+#include "dynamics/body/port.hpp"
+#include "dynamics/element/element.hpp"
 #include "dynamics/profile/mattress.hpp"
 #include "dynamics/valve/contact_watch.hpp"
 

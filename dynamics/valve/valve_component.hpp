@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dynamics/component/component.hpp"
-#include "dynamics/force/stop.hpp"
+#include "dynamics/element/stop.hpp"
 #include "dynamics/hydraulic/hydraulic_component.hpp"
 #include "dynamics/valve/coil_spring.hpp"
 #include "dynamics/valve/follower_parts.hpp"

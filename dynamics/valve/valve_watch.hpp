@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 #include "dynamics/valve/cam_profile.hpp"
 #include "dynamics/valve/contact_watch.hpp"
 #include "dynamics/valve/roller_contact.hpp"

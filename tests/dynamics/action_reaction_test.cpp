@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "dynamics/force/pair_element.hpp"
+#include "dynamics/element/pair_element.hpp"
 #include "tests/dynamics/synthetic_engine.hpp"
 #include "tests/random_matrix.hpp"
 

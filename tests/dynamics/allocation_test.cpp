@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "core/base/threads.hpp"
+#include "dynamics/element/stop.hpp"
 #include "dynamics/film/piston_liner.hpp"
-#include "dynamics/force/stop.hpp"
 #include "dynamics/profile/mattress.hpp"
 #include "dynamics/profile/tooth_gap.hpp"
 #include "dynamics/run/start_state.hpp"

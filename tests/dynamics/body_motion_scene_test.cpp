@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "dynamics/body/floating_body.hpp"
-#include "dynamics/force/joint_laws.hpp"
-#include "dynamics/force/pair_element.hpp"
+#include "dynamics/element/pair_element.hpp"
+#include "dynamics/law/joint_laws.hpp"
 #include "tests/dynamics/mechanisms.hpp"
 #include "tests/dynamics/slap_scene.hpp"
 #include "tests/dynamics/synthetic.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The elastic rod and the rod without mass: forces, tangents, powers.
 #include "dynamics/body/elastic_rod.hpp"
-#include "dynamics/force/pair_element.hpp"
+#include "dynamics/element/pair_element.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/force/joint_laws.hpp"
-#include "dynamics/force/massless_rod.hpp"
-#include "dynamics/force/mechanism_port.hpp"
-#include "dynamics/force/pin_guide.hpp"
+#include "dynamics/body/mechanism_port.hpp"
+#include "dynamics/element/massless_rod.hpp"
+#include "dynamics/element/pin_guide.hpp"
+#include "dynamics/law/joint_laws.hpp"
 #include "tests/dynamics/rod_truss.hpp"
 #include "tests/random_matrix.hpp"
 

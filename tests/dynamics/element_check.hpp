@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 
 namespace clatter::dynamics::testing {
 

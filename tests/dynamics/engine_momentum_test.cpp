@@ -12,8 +12,8 @@
 
 #include "dynamics/cylinder/cylinder_component.hpp"
 #include "dynamics/cylinder/cylinder_rod.hpp"
-#include "dynamics/force/mount.hpp"
-#include "dynamics/force/pair_element.hpp"
+#include "dynamics/element/mount.hpp"
+#include "dynamics/element/pair_element.hpp"
 #include "dynamics/integrate/dirk.hpp"
 #include "dynamics/run/model.hpp"
 #include "tests/dynamics/rod_truss.hpp"

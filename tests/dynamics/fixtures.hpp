@@ -11,7 +11,7 @@
 
 #include "core/rom/reduced_model.hpp"
 #include "dynamics/body/modal_body.hpp"
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 #include "dynamics/integrate/dirk.hpp"
 #include "dynamics/integrate/system.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/dense/symmetric_eigen.hpp"
-#include "dynamics/force/spin_element.hpp"
+#include "dynamics/element/spin_element.hpp"
 #include "dynamics/run/energy.hpp"
 #include "tests/dynamics/fixtures.hpp"
 #include "tests/dynamics/mechanisms.hpp"

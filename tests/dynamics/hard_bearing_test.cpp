@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "dynamics/bearing/bearing_film.hpp"
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 #include "tests/observed.hpp"
 
 namespace clatter::dynamics {

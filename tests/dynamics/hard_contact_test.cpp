@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
-#include "dynamics/force/radial_law.hpp"
+#include "dynamics/law/radial_law.hpp"
 #include "dynamics/run/energy.hpp"
 #include "tests/dynamics/fixtures.hpp"
 #include "tests/observed.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "dynamics/force/stop.hpp"
+#include "dynamics/element/stop.hpp"
 #include "dynamics/run/energy.hpp"
 #include "tests/dynamics/fixtures.hpp"
 #include "tests/dynamics/mechanisms.hpp"

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "dynamics/body/rigid_body.hpp"
-#include "dynamics/force/joint_laws.hpp"
-#include "dynamics/force/pair_element.hpp"
+#include "dynamics/element/pair_element.hpp"
+#include "dynamics/law/joint_laws.hpp"
 
 namespace clatter::dynamics::testing {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/force/element.hpp"
+#include "dynamics/element/element.hpp"
 #include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics::testing {

@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "dynamics/body/floating_body.hpp"
-#include "dynamics/force/stop.hpp"
+#include "dynamics/element/stop.hpp"
 #include "dynamics/run/energy.hpp"
 #include "tests/dynamics/fixtures.hpp"
 #include "tests/dynamics/mechanisms.hpp"

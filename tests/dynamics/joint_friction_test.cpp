@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Friction in the joints of the rod: dry, by a table, of an oil film.
-#include "dynamics/force/joint_laws.hpp"
-#include "dynamics/force/mechanism_port.hpp"
-#include "dynamics/force/pair_element.hpp"
+#include "dynamics/body/mechanism_port.hpp"
+#include "dynamics/element/pair_element.hpp"
+#include "dynamics/law/joint_laws.hpp"
 
 #include <gtest/gtest.h>
 

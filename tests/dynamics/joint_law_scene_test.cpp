@@ -9,7 +9,7 @@
 #include <fstream>
 #include <numeric>
 
-#include "dynamics/force/radial_law.hpp"
+#include "dynamics/law/radial_law.hpp"
 #include "tests/dynamics/slap_scene.hpp"
 #include "tests/refusal.hpp"
 

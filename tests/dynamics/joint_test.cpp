@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/force/joint_laws.hpp"
-#include "dynamics/force/mechanism_port.hpp"
-#include "dynamics/force/pair_element.hpp"
+#include "dynamics/body/mechanism_port.hpp"
+#include "dynamics/element/pair_element.hpp"
+#include "dynamics/law/joint_laws.hpp"
 #include "tests/random_matrix.hpp"
 
 #include <gtest/gtest.h>

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "dynamics/force/joint_laws.hpp"
-#include "dynamics/force/mechanism_port.hpp"
-#include "dynamics/force/pair_element.hpp"
+#include "dynamics/body/mechanism_port.hpp"
+#include "dynamics/element/pair_element.hpp"
+#include "dynamics/law/joint_laws.hpp"
 #include "tests/dynamics/element_check.hpp"
 #include "tests/refusal.hpp"
 

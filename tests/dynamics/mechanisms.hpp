@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "dynamics/body/rigid_body.hpp"
-#include "dynamics/force/joint_laws.hpp"
-#include "dynamics/force/pair_element.hpp"
+#include "dynamics/element/pair_element.hpp"
 #include "dynamics/integrate/integrator.hpp"
 #include "dynamics/integrate/spatial_body.hpp"
 #include "dynamics/integrate/system.hpp"
+#include "dynamics/law/joint_laws.hpp"
 
 namespace clatter::dynamics::testing {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/force/moving_frame.hpp"
+#include "dynamics/element/moving_frame.hpp"
 #include "dynamics/run/energy.hpp"
 #include "tests/dynamics/fixtures.hpp"
 

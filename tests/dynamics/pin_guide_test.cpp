@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/force/pin_guide.hpp"
+#include "dynamics/element/pin_guide.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/force/rotation.hpp"
-#include "dynamics/force/spin_element.hpp"
+#include "dynamics/body/rotation.hpp"
+#include "dynamics/element/spin_element.hpp"
 #include "dynamics/run/energy.hpp"
 #include "tests/dynamics/mechanisms.hpp"
 

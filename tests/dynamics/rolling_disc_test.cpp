@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/force/disc_contact.hpp"
+#include "dynamics/element/disc_contact.hpp"
 #include "dynamics/run/energy.hpp"
 #include "tests/dynamics/mechanisms.hpp"
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/dense/solve.hpp"
-#include "dynamics/force/mount.hpp"
+#include "dynamics/element/mount.hpp"
 #include "dynamics/run/mounted_motion.hpp"
 #include "dynamics/run/run_end.hpp"
 #include "dynamics/run/run_file.hpp"

@@ -7,7 +7,7 @@
 
 #include "core/base/units.hpp"
 #include "dynamics/chain/profile_contact.hpp"
-#include "dynamics/force/pair_element.hpp"
+#include "dynamics/element/pair_element.hpp"
 #include "dynamics/profile/tooth_gap.hpp"
 #include "tests/dynamics/chain/open_chain.hpp"
 #include "tests/dynamics/chain/small_motion.hpp"

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "dynamics/body/port.hpp"
 #include "dynamics/chain/link_joints.hpp"
-#include "dynamics/force/port.hpp"
 #include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics::testing {

@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "dynamics/bearing/bearing_laws.hpp"
-#include "dynamics/force/joint_laws.hpp"
-#include "dynamics/force/pair_element.hpp"
-#include "dynamics/force/rotation.hpp"
+#include "dynamics/body/rotation.hpp"
+#include "dynamics/element/pair_element.hpp"
+#include "dynamics/law/joint_laws.hpp"
 #include "dynamics/shaft/disc_gyroscope.hpp"
 #include "dynamics/shaft/disc_port.hpp"
 #include "dynamics/shaft/shaft_beam.hpp"

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/element/stop.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/error.hpp"
+
+namespace clatter::dynamics {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kLiftHeight = 1e-6;  // a held point that is higher flies [m]
+/// The damper of a held point acts from this depth on; below, less in proportion [m].
+constexpr double kDampedDepth = 1e-9;
+
+}  // namespace
+
+Stop::Stop(const std::string& name, PointOnPlane pair, const FrictionLaw& friction)
+    : ForceElement(pair.coordinates()), pair_(std::move(pair)), name_(name), friction_(friction) {
+  recorded_ = {history_name("gap"), history_name("force"), history_name("slip")};
+}
+
+std::string Stop::history_name(const char* what) const {
+  std::string name = name_ + "_" + what;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+Stop::Friction Stop::friction(double slip) const {
+  const double v = friction_.slip_speed, x = slip / v;
+  const double top = friction_.at_rest, low = friction_.kinetic;
+  if (x < 1.0) return {top * (1.5 - 0.5 * x * x) / v, -top / (v * v * v)};
+  const double s = std::min(x - 1.0, 1.0);
+  const double mu = top + (low - top) * s * s * (3.0 - 2.0 * s);
+  const double slope = (low - top) * 6.0 * s * (1.0 - s) / v;
+  return {mu / slip, (slope - mu / slip) / (slip * slip)};
+}
+
+void Stop::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v, bool with_tangent,
+                    Response& response) {
+  time_ = stage.time;
+  const PlaneMotion& at = pair_.move(time_, y, v);
+  const NormalForce law = normal(std::max(-at.gap, 0.0), -at.rate);
+  const double slip = at.slip.norm();
+  last_ = {at.gap, law.force, slip};
+  const Friction against = friction(slip);
+  const Vector3d force = law.force * (at.normal - against.factor * at.slip);
+  pair_.apply(force, response.force);
+  if (!with_tangent) return;
+  pair_.differentiate(1.0 / stage.kappa);
+  by_normal_ = -law.by_depth * pair_.by_gap() - law.by_rate * pair_.by_rate();
+  by_slip_ = pair_.by_velocity() - at.rate * pair_.by_normal();
+  by_slip_.noalias() -= at.normal * pair_.by_rate();
+  by_force_ = law.force * (pair_.by_normal() - against.factor * by_slip_);
+  by_force_.noalias() += (at.normal - against.factor * at.slip) * by_normal_;
+  const Eigen::Matrix3d stretch = law.force * against.slope * at.slip * at.slip.transpose();
+  by_force_.noalias() -= stretch * by_slip_;
+  pair_.add_up(force, by_force_, response.tangent);
+}
+
+Power Stop::power(const VectorXd& y, const VectorXd& v) const {
+  const PlaneMotion& at = pair_.move(time_, y, v);
+  const NormalForce law = normal(std::max(-at.gap, 0.0), -at.rate);
+  const double factor = law.force * friction(at.slip.norm()).factor;
+  return {law.stored, law.lost + factor * at.slip.squaredNorm(),
+          pair_.input(law.force * at.normal - factor * at.slip)};
+}
+
+void Stop::record(History& history) const {
+  history.put(recorded_[0], "m", accepted_[0]);
+  history.put(recorded_[1], "N", accepted_[1]);
+  if (friction_.at_rest > 0.0) history.put(recorded_[2], "m/s", accepted_[2]);
+}
+
+NormalForce CompliantStop::normal(double depth, double rate) const {
+  NormalForce law;
+  const double steep = k_ * std::pow(depth, n_ - 1.0), elastic = steep * depth;
+  law.stored = elastic * depth / (n_ + 1.0);
+  const double damped = 1.0 + chi_ * rate;
+  if (depth > 0.0 && damped > 0.0) {
+    law.force = elastic * damped;
+    law.by_depth = n_ * steep * damped;
+    law.by_rate = elastic * chi_;
+  }
+  law.lost = (law.force - elastic) * rate;
+  return law;
+}
+
+RigidStop::RigidStop(const std::string& name, PointOnPlane pair, double restitution,
+                     double rest_stiffness)
+    : Stop(name, std::move(pair), {}),
+      restitution_(restitution),
+      stiffness_(rest_stiffness),
+      impulse_name_(history_name("impulse")) {}
+
+NormalForce RigidStop::normal(double depth, double rate) const {
+  NormalForce law;
+  if (!held_ || depth <= 0.0) return law;
+  const double full = depth + kDampedDepth, share = depth / full;
+  const double damping = 2.0 * std::sqrt(stiffness_ * mass_) * share;
+  law.stored = 0.5 * stiffness_ * depth * depth;
+  const double force = stiffness_ * depth + damping * rate;
+  if (force > 0.0) {
+    law.force = force;
+    law.by_depth = stiffness_ + 2.0 * std::sqrt(stiffness_ * mass_) * rate * (1.0 - share) / full;
+    law.by_rate = damping;
+  }
+  law.lost = (law.force - stiffness_ * depth) * rate;
+  return law;
+}
+
+double RigidStop::event_function(int index, double time, const VectorXd& y,
+                                 const VectorXd& v) const {
+  if (held_ != (index == kLift)) return 1.0;
+  const double gap = pair_.move(time, y, v).gap;
+  return held_ ? kLiftHeight - gap : gap;
+}
+
+void RigidStop::at_event(int index, double time, const VectorXd& y, const VectorXd& v,
+                         const Mobility& mobility, VectorXd& impulse) {
+  if (index == kLift) {
+    held_ = false;
+    return;
+  }
+  const PlaneMotion& at = pair_.move(time, y, v);
+  const double inverse = at.normal.dot(pair_.mobility(mobility) * at.normal);
+  if (!(inverse > 0.0))
+    throw NumericsError(
+        fmt::format("time {:.9g} s: {}: an impact, but nothing there has inertia", time, name()));
+  mass_ = 1.0 / inverse;
+  if (at.rate >= 0.0) return;
+  const double size = -(1.0 + restitution_) * at.rate * mass_;
+  impulse_ += size;
+  pair_.apply(size * at.normal, impulse);
+}
+
+bool RigidStop::at_accumulation(int index) {
+  held_ = index == kTouch;
+  return true;
+}
+
+bool RigidStop::has_sunk() const { return deepest_ > kLiftHeight; }
+
+void RigidStop::record(History& history) const {
+  Stop::record(history);
+  history.put(impulse_name_, "N s", impulse_);
+}
+
+std::vector<double> RigidStop::save() const { return {held_ ? 1.0 : 0.0, mass_, impulse_}; }
+
+void RigidStop::restore(const std::vector<double>& state) {
+  if (state.size() != 3) throw InputError(name() + ": the saved state belongs to another scene");
+  held_ = state[0] != 0.0;
+  mass_ = state[1];
+  impulse_ = state[2];
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Contact of a point of one body with a plane of another.
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "dynamics/element/element.hpp"
+#include "dynamics/element/point_on_plane.hpp"
+
+namespace clatter::dynamics {
+
+/// Normal force N of a contact by its depth d and the rate of the depth, d'; N >= 0.
+struct NormalForce {
+  double force = 0.0, by_depth = 0.0, by_rate = 0.0;  // [N], [N/m], [N s/m]
+  double stored = 0.0, lost = 0.0;                    // [J], [W]
+};
+
+/// Coulomb friction mu N against slip, smooth: mu grows as static (3 x - x^3) / 2 up to its largest
+/// value at x = |slip| / slip_speed = 1, falls to `kinetic` at x = 2 by a cubic, and stays. Below
+/// its limit it creeps, x < 1.
+struct FrictionLaw {
+  double kinetic = 0.0, at_rest = 0.0;  // coefficients; at_rest >= kinetic
+  double slip_speed = 1e-3;             // [m/s]
+};
+
+/// Records `<name>_gap` [m], `<name>_force`, the normal force [N], and with friction `<name>_slip`
+/// [m/s]; spaces of the name are underscores.
+class Stop : public ForceElement {
+ public:
+  std::string name() const override { return name_; }
+  void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+                bool with_tangent, Response& response) override;
+  void finish_stage(const Stage&) override { finished_ = last_; }
+  void accept_step(double) override { accepted_ = finished_; }
+  Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
+  void record(History& history) const override;
+  double gap() const { return accepted_[0]; }           // [m]
+  double normal_force() const { return accepted_[1]; }  // [N]
+
+ protected:
+  Stop(const std::string& name, PointOnPlane pair, const FrictionLaw& friction);
+  virtual NormalForce normal(double depth, double rate) const = 0;
+  /// "<name>_<what>" with underscores.
+  std::string history_name(const char* what) const;
+
+  PointOnPlane pair_;
+
+ private:
+  struct Friction {
+    double factor, slope;  // friction = - factor N slip; d factor / d|slip| / |slip|
+  };
+  Friction friction(double slip) const;
+
+  std::string name_;
+  FrictionLaw friction_;
+  std::array<std::string, 3> recorded_;
+  std::array<double, 3> last_{}, finished_{}, accepted_{};  // gap, force, slip
+  double time_ = 0.0;
+  Eigen::RowVectorXd by_normal_;
+  Matrix3X by_slip_, by_force_;
+};
+
+/// N = k d^n (1 + chi d'), never below 0: for n = 3/2 Hertz with the damping of Hunt and Crossley
+/// (1975). The loss of an impact depends on its speed v alone, for any mass, k and n:
+/// chi v - ln(1 + chi v) = -chi e v - ln(1 - chi e v).
+class CompliantStop : public Stop {
+ public:
+  /// @param stiffness k [N/m^n]. @param exponent n >= 1. @param damping chi [s/m].
+  CompliantStop(const std::string& name, PointOnPlane pair, double stiffness, double exponent,
+                double damping, const FrictionLaw& friction)
+      : Stop(name, std::move(pair), friction), k_(stiffness), n_(exponent), chi_(damping) {}
+
+ protected:
+  NormalForce normal(double depth, double rate) const override;
+
+ private:
+  double k_, n_, chi_;
+};
+
+/// A rigid contact without friction: an impact reverses the normal velocity u at once to -e u by an
+/// impulse along the normal, (1 + e) u over the inverse mass of the contact point (Newton's
+/// restitution; Pfeiffer and Glocker 1996). The energy (1 - e^2) u^2 / 2 times that mass is lost.
+///
+/// Where impacts accumulate the point is held: N = k d + c d', critically damped with the mass that
+/// the contact had, never below 0. It flies again when it has lifted by 1 um.
+class RigidStop : public Stop {
+ public:
+  /// @param restitution e, 0 to 1. @param rest_stiffness k of the contact that holds it [N/m].
+  RigidStop(const std::string& name, PointOnPlane pair, double restitution, double rest_stiffness);
+
+  int events() const override { return 2; }
+  double event_function(int index, double time, const Eigen::VectorXd& y,
+                        const Eigen::VectorXd& v) const override;
+  bool is_one_sided(int) const override { return true; }
+  /// NumericsError when no body can take the impulse.
+  void at_event(int index, double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+                const Mobility& mobility, Eigen::VectorXd& impulse) override;
+  bool at_accumulation(int index) override;
+  /// Also `<name>_impulse`: of all impacts so far [N s].
+  void record(History& history) const override;
+  std::vector<double> save() const override;
+  void restore(const std::vector<double>& state) override;
+
+  void accept_step(double time) override {
+    Stop::accept_step(time);
+    if (held_) deepest_ = std::max(deepest_, -gap());
+  }
+
+  bool is_held() const { return held_; }
+  double rest_stiffness() const { return stiffness_; }  // [N/m]
+  double deepest() const { return deepest_; }           // below the plane while held [m]
+  /// It was held so softly that the contact was not rigid (hard case S5).
+  bool has_sunk() const;
+
+ protected:
+  NormalForce normal(double depth, double rate) const override;
+
+ private:
+  enum Index { kTouch, kLift };
+  double restitution_, stiffness_;
+  bool held_ = false;
+  double mass_ = 0.0;     // of the contact point along the normal, at the last impact [kg]
+  double impulse_ = 0.0;  // [N s]
+  double deepest_ = 0.0;  // [m]
+  std::string impulse_name_;
+};
+
+}  // namespace clatter::dynamics
