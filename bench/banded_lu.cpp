@@ -29,21 +29,21 @@ struct FilmMatrix {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> value(0.1, 1.0);
     off.resize(2 * static_cast<size_t>(n));
-    diagonal.assign(static_cast<size_t>(n), 0.05);
+    diagonal.assign(n, 0.05);
     for (int i = 0; i < n; ++i)
       for (int k = 0; k < 2; ++k) {
         const int j = i + (k == 0 ? 1 : band);
         if (j >= n) continue;
         const double a = value(random);
         off[2 * static_cast<size_t>(i) + static_cast<size_t>(k)] = a;
-        diagonal[static_cast<size_t>(i)] += a;
-        diagonal[static_cast<size_t>(j)] += a;
+        diagonal[i] += a;
+        diagonal[j] += a;
       }
   }
   template <class Put>
   void fill(Put&& put) const {
     for (int i = 0; i < n; ++i) {
-      put(i, i, diagonal[static_cast<size_t>(i)]);
+      put(i, i, diagonal[i]);
       for (int k = 0; k < 2; ++k) {
         const int j = i + (k == 0 ? 1 : band);
         if (j >= n || (k == 1 && band == 1)) continue;
@@ -94,9 +94,8 @@ void compare(int rows, int band, int repeats) {
   });
   double difference = 0.0, size = 0.0;
   for (int i = 0; i < n; ++i) {
-    difference =
-        std::max(difference, std::abs(own_y[static_cast<size_t>(i)] - y[static_cast<size_t>(i)]));
-    size = std::max(size, std::abs(y[static_cast<size_t>(i)]));
+    difference = std::max(difference, std::abs(own_y[i] - y[i]));
+    size = std::max(size, std::abs(y[i]));
   }
   std::printf("| %d x %d | %d | %.0f | %.0f | %.2f | %.0e |\n", rows, band, n, own_us, lapack_us,
               lapack_us / own_us, difference / size);

@@ -18,5 +18,5 @@ double median_us(int repeats, int pause_us, Run&& run) {
     times.push_back(time.count());
   }
   std::nth_element(times.begin(), times.begin() + repeats / 2, times.end());
-  return times[static_cast<size_t>(repeats / 2)];
+  return times[repeats / 2];
 }

@@ -20,8 +20,7 @@ int main(int argc, char** argv) {
   for (const int64_t n : {int64_t{1000}, int64_t{100000}, int64_t{10000000}}) {
     std::vector<double> x(static_cast<size_t>(n), 1.0);
     const auto piece = [&](int64_t begin, int64_t end) {
-      for (int64_t i = begin; i < end; ++i)
-        x[static_cast<size_t>(i)] = 0.5 * x[static_cast<size_t>(i)] + 1.0;
+      for (int64_t i = begin; i < end; ++i) x[i] = 0.5 * x[i] + 1.0;
     };
     for (const int pause : {0, 5000}) {
       const int runs = n > 1000000 ? std::min(repeats, 31) : repeats;

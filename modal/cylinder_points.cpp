@@ -117,7 +117,7 @@ CylinderPoints points_on(const RowMatrix& nodes, const mesh::Surface& surface,
                          const Eigen::VectorXd& angles) {
   const std::vector<LocalFace> faces = local_faces(nodes, surface, axes);
   CylinderPoints out;
-  out.covered.assign(static_cast<size_t>(heights.size() * angles.size()), false);
+  out.covered.assign(heights.size() * angles.size(), false);
   std::vector<Eigen::Triplet<double, int32_t>> entries;
   for (Eigen::Index i = 0; i < heights.size(); ++i) {
     std::vector<const LocalFace*> level;
@@ -135,7 +135,7 @@ CylinderPoints points_on(const RowMatrix& nodes, const mesh::Surface& surface,
           for (int d = 0; d < 3; ++d)
             entries.emplace_back(row, 3 * face->nodes[a] + d,
                                  shape.value(static_cast<Eigen::Index>(a)) * outward(d));
-        out.covered[static_cast<size_t>(row)] = true;
+        out.covered[row] = true;
         break;
       }
     }

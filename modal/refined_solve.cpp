@@ -26,13 +26,13 @@ VectorXd extended_residual(const SparseMatrix& lower, const VectorXd& x, const V
     long double own = 0.0L;
     for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
       const long double a = it.value();
-      sum[static_cast<size_t>(it.row())] -= a * xj;
+      sum[it.row()] -= a * xj;
       if (it.row() != j) own += a * static_cast<long double>(x[it.row()]);
     }
-    sum[static_cast<size_t>(j)] -= own;
+    sum[j] -= own;
   }
   VectorXd r(b.size());
-  for (Index i = 0; i < r.size(); ++i) r[i] = static_cast<double>(sum[static_cast<size_t>(i)]);
+  for (Index i = 0; i < r.size(); ++i) r[i] = static_cast<double>(sum[i]);
   return r;
 }
 

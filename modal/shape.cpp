@@ -144,8 +144,7 @@ Shape shape_of(const RowMatrix& nodes, const mesh::Surface& surface,
   const CylinderPoints points = points_on(nodes, surface, shape.axes, shape.height, shape.angle);
   shape.covered.resize(shape.height.size(), n);
   for (Eigen::Index i = 0; i < shape.height.size(); ++i) {
-    for (Eigen::Index j = 0; j < n; ++j)
-      shape.covered(i, j) = points.covered[static_cast<size_t>(i * n + j)] ? 1 : 0;
+    for (Eigen::Index j = 0; j < n; ++j) shape.covered(i, j) = points.covered[i * n + j] ? 1 : 0;
     if (shape.covered.row(i).sum() == 0)
       throw InputError(
           fmt::format("{}: found no face at height {:.6g} m, expected some; choose "

@@ -14,9 +14,8 @@ std::string supports_of(const fe::FeModel& model, const StaticCase& solved) {
   for (Eigen::Index s = 0; s < solved.support_sums.rows(); ++s) {
     std::vector<std::string> sums;
     for (const double value : solved.support_sums.row(s)) sums.push_back(json_number(value));
-    members.push_back(fmt::format("{}: [{}]",
-                                  json_text(model.supports.names[static_cast<size_t>(s)]),
-                                  fmt::join(sums, ", ")));
+    members.push_back(
+        fmt::format("{}: [{}]", json_text(model.supports.names[s]), fmt::join(sums, ", ")));
   }
   return fmt::format("{{{}}}", fmt::join(members, ", "));
 }

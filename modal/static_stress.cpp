@@ -61,8 +61,7 @@ NodeStress largest_stress(const fe::FeModel& model, const StaticCase& solved) {
     if (region.nodes.empty()) continue;
     Eigen::Index row = 0;
     if (const double most = region.von_mises.maxCoeff(&row); most > out.von_mises)
-      out = {model.cells.regions[r], region.nodes[static_cast<size_t>(row)],
-             region.stress.row(row).transpose(), most};
+      out = {model.cells.regions[r], region.nodes[row], region.stress.row(row).transpose(), most};
   }
   return out;
 }

@@ -69,7 +69,7 @@ RightSides right_sides(const fe::FeModel& model, const std::vector<std::string>&
   RightSides sides{Eigen::MatrixXd::Zero(model.size(), m), Eigen::MatrixXd::Zero(n_s, m),
                    Eigen::MatrixXd::Zero(n_s, m)};
   for (Eigen::Index c = 0; c < m; ++c)
-    for (const auto& [load, factor] : factors_of(model, names[static_cast<size_t>(c)])) {
+    for (const auto& [load, factor] : factors_of(model, names[c])) {
       sides.f.col(c) += factor * model.loads.at(load);
       const auto held = model.support_loads.find(load);
       if (held != model.support_loads.end()) sides.f_s.col(c) += factor * held->second;
@@ -162,8 +162,7 @@ StaticCase recover(const fe::FeModel& model, const Eigen::VectorXd& q, const Eig
     out.reactions = by_q + on_s - f_s;
     size += by_q.lpNorm<1>() + on_s.lpNorm<1>() + f_s.lpNorm<1>();
     for (Eigen::Index k = 0; k < supports.size(); ++k)
-      out.support_sums.row(supports.support[static_cast<size_t>(k)]) +=
-          out.reactions(k) * supports.rigid.row(k);
+      out.support_sums.row(supports.support[k]) += out.reactions(k) * supports.rigid.row(k);
   }
   Eigen::VectorXd sum = out.applied + out.support_sums.colwise().sum().transpose();
   sum = sum.cwiseProduct(balanced);
@@ -284,9 +283,9 @@ std::vector<std::string> describe(const fe::FeModel& model, const StaticSolution
       lines.push_back(
           fmt::format("  {}: force ({:.6g}, {:.6g}, {:.6g}) N, moment about the origin "
                       "({:.6g}, {:.6g}, {:.6g}) N m",
-                      model.supports.names[static_cast<size_t>(s)], one.support_sums(s, 0),
-                      one.support_sums(s, 1), one.support_sums(s, 2), one.support_sums(s, 3),
-                      one.support_sums(s, 4), one.support_sums(s, 5)));
+                      model.supports.names[s], one.support_sums(s, 0), one.support_sums(s, 1),
+                      one.support_sums(s, 2), one.support_sums(s, 3), one.support_sums(s, 4),
+                      one.support_sums(s, 5)));
   }
   return lines;
 }

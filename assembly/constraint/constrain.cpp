@@ -47,7 +47,7 @@ std::vector<HeldDof> held_in_order(const Elimination& elimination, const HeldByI
   std::vector<HeldDof> all(static_cast<size_t>(elimination.supports()));
   for (size_t id = 0; id < elimination.support_of.size(); ++id) {
     const int32_t number = elimination.support_of[id];
-    if (number >= 0) all[static_cast<size_t>(number)] = held.at(static_cast<int32_t>(id));
+    if (number >= 0) all[number] = held.at(static_cast<int32_t>(id));
   }
   return all;
 }

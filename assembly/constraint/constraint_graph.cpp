@@ -16,7 +16,7 @@ int ConstraintGraph::add_relation(const std::string& where) {
 
 void ConstraintGraph::clash(int32_t dof, int relation, const char* verb, int other,
                             const char* other_verb) const {
-  const auto word = [this](int r) { return relations_[static_cast<size_t>(r)]; };
+  const auto word = [this](int r) { return relations_[r]; };
   throw InputError(fmt::format("{}: found {}, which it {} and which {} {}, expected one of them",
                                word(relation), name_(dof), verb, word(other), other_verb));
 }
@@ -55,7 +55,7 @@ void ConstraintGraph::keep(int32_t dof, int relation) {
 }
 
 const std::string& ConstraintGraph::relation_of(int32_t dof) const {
-  return relations_[static_cast<size_t>(links_.at(dof).relation)];
+  return relations_[links_.at(dof).relation];
 }
 
 void ConstraintGraph::refuse_cycle(const std::vector<int32_t>& path, int32_t again) const {

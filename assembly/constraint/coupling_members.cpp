@@ -18,7 +18,7 @@ std::vector<Member> members_of_selection(const PartData& part, const Selection& 
   std::vector<Member> found;
   for (const NodeOrPoint owner : selected(selection, part.mesh, part.numbers)) {
     Member member;
-    for (int d = 0; d < 6; ++d) member.dofs[static_cast<size_t>(d)] = part.numbers.of(owner, d);
+    for (int d = 0; d < 6; ++d) member.dofs[d] = part.numbers.of(owner, d);
     member.position = part.numbers.position(owner);
     member.weight = 1.0;
     found.push_back(member);
@@ -40,8 +40,8 @@ std::vector<Member> coupling_members(const PartData& part, const CouplingSpec& s
           throw InputError(
               fmt::format("{}: found {} of a node, expected displacements (nodes have "
                           "no rotations)",
-                          term.selection.where, kDofNames[static_cast<size_t>(d)]));
-        if (!requested) member.dofs[static_cast<size_t>(d)] = -1;
+                          term.selection.where, kDofNames[d]));
+        if (!requested) member.dofs[d] = -1;
       }
     }
     all.insert(all.end(), found.begin(), found.end());
@@ -66,7 +66,7 @@ int32_t point_named(const PartData& part, const std::string& name) {
 
 ReferenceDofs point_dofs(const DofNumbers& numbers, int32_t point) {
   ReferenceDofs dofs;
-  for (int d = 0; d < 6; ++d) dofs.ids[static_cast<size_t>(d)] = numbers.of_point(point, d);
+  for (int d = 0; d < 6; ++d) dofs.ids[d] = numbers.of_point(point, d);
   dofs.position = numbers.position(NodeOrPoint::of_point(point));
   return dofs;
 }

@@ -18,7 +18,7 @@ int32_t number_in_deck(const PartData& part, NodeOrPoint owner) {
     if (part.recipe.points[p].number != 0) return part.recipe.points[p].number;
     node = part.numbers.points()[p].node;
   }
-  return node < 0 || part.mesh.node_ids.empty() ? 0 : part.mesh.node_ids[static_cast<size_t>(node)];
+  return node < 0 || part.mesh.node_ids.empty() ? 0 : part.mesh.node_ids[node];
 }
 
 /// The DoFs of a [[nodes]] or [[sensor]], as ids.
@@ -32,13 +32,13 @@ rom::DofSet kept_set(const NodeSpec& spec, const std::vector<KeptDof>& kept,
   const bool single = std::ranges::all_of(kept, [](const KeptDof& dof) { return dof.number == 0; });
   for (const KeptDof& dof : kept) {
     const auto r = static_cast<Eigen::Index>(set.dofs.size());
-    set.dofs.push_back(ids[static_cast<size_t>(r)]);
+    set.dofs.push_back(ids[r]);
     set.position.row(r) = part.numbers.position(dof.owner).transpose();
     set.direction.row(r) = dof.along.transpose();
     set.components.push_back(dof.turned ? dof.direction + 1 : 0);
     set.is_rotation.push_back(dof.direction < 3 ? 0 : 1);
     set.node_ids.push_back(number_in_deck(part, dof.owner));
-    const char* axis = kDofNames[static_cast<size_t>(dof.direction)];
+    const char* axis = kDofNames[dof.direction];
     set.labels.push_back(single ? fmt::format("{}.{}", spec.name, axis)
                                 : fmt::format("{}[{}].{}", spec.name, dof.number, axis));
   }
@@ -62,7 +62,7 @@ rom::DofSet six_dofs(const std::string& name, const std::string& kind,
 rom::DofSet numbered(rom::DofSet set, const std::vector<int32_t>& reduced_of) {
   std::vector<Eigen::Index> rows;
   for (size_t k = 0; k < set.dofs.size(); ++k) {
-    const int32_t reduced = reduced_of[static_cast<size_t>(set.dofs[k])];
+    const int32_t reduced = reduced_of[set.dofs[k]];
     if (reduced < 0) continue;
     const size_t to = rows.size();
     rows.push_back(static_cast<Eigen::Index>(k));

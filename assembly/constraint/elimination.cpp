@@ -24,8 +24,8 @@ Eliminator::Eliminator(int64_t n_dofs, const std::vector<int32_t>& fixed,
                        const std::vector<int32_t>& kept)
     : n_dofs_(n_dofs) {
   allocate(static_cast<int>(n_dofs), kFree);
-  for (const int32_t dof : kept) state_[static_cast<size_t>(dof)] = kKept;
-  for (const int32_t dof : fixed) state_[static_cast<size_t>(dof)] = kFixed;
+  for (const int32_t dof : kept) state_[dof] = kKept;
+  for (const int32_t dof : fixed) state_[dof] = kFixed;
 }
 
 int32_t Eliminator::allocate(int count, int32_t state) {
@@ -40,24 +40,22 @@ int32_t Eliminator::allocate(int count, int32_t state) {
 int32_t Eliminator::add_coordinates(int count) { return allocate(count, kKept); }
 
 bool Eliminator::is_coordinate(int32_t id) const {
-  const int32_t state = state_[static_cast<size_t>(id)];
+  const int32_t state = state_[id];
   return state == kFree || state == kKept;
 }
 
-bool Eliminator::is_held(int32_t id) const { return state_[static_cast<size_t>(id)] == kFixed; }
+bool Eliminator::is_held(int32_t id) const { return state_[id] == kFixed; }
 
-void Eliminator::drop(int32_t id) { state_[static_cast<size_t>(id)] = kDropped; }
+void Eliminator::drop(int32_t id) { state_[id] = kDropped; }
 
-bool Eliminator::is_dropped(int32_t id) const {
-  return state_[static_cast<size_t>(id)] == kDropped;
-}
+bool Eliminator::is_dropped(int32_t id) const { return state_[id] == kDropped; }
 
 Eliminator::SparseRow Eliminator::gather() {
   std::sort(touched_.begin(), touched_.end());
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
   SparseRow row;
   for (const int32_t id : touched_) {
-    double& value = sum_[static_cast<size_t>(id)];
+    double& value = sum_[id];
     if (value != 0.0) row.emplace_back(id, value);
     value = 0.0;
   }
@@ -67,17 +65,16 @@ Eliminator::SparseRow Eliminator::gather() {
 
 Eliminator::SparseRow Eliminator::expand(const Functional& functional) {
   const auto add = [this](int32_t id, double value) {
-    sum_[static_cast<size_t>(id)] += value;
+    sum_[id] += value;
     touched_.push_back(id);
   };
   for (size_t k = 0; k < functional.dofs.size(); ++k) {
-    const int32_t state = state_[static_cast<size_t>(functional.dofs[k])];
+    const int32_t state = state_[functional.dofs[k]];
     if (state < 0) {
       add(functional.dofs[k], functional.values[k]);
       continue;
     }
-    for (const auto& [id, value] : pivot_rows_[static_cast<size_t>(state)])
-      add(id, functional.values[k] * value);
+    for (const auto& [id, value] : pivot_rows_[state]) add(id, functional.values[k] * value);
   }
   return gather();
 }
@@ -94,11 +91,10 @@ Functional Eliminator::express(const Functional& functional) {
 std::vector<bool> Eliminator::moves_nodes(int64_t nodal_dofs) const {
   std::vector<bool> moves(state_.size(), false);
   for (int64_t dof = 0; dof < nodal_dofs; ++dof) {
-    const int32_t state = state_[static_cast<size_t>(dof)];
-    moves[static_cast<size_t>(dof)] = true;
+    const int32_t state = state_[dof];
+    moves[dof] = true;
     if (state < 0) continue;
-    for (const auto& entry : pivot_rows_[static_cast<size_t>(state)])
-      moves[static_cast<size_t>(entry.first)] = true;
+    for (const auto& entry : pivot_rows_[state]) moves[entry.first] = true;
   }
   return moves;
 }
@@ -108,7 +104,7 @@ std::vector<int32_t> Eliminator::choose_pivots(const Eigen::MatrixXd& C,
                                                const std::vector<int32_t>& ids) const {
   std::vector<int32_t> candidates;
   for (size_t c = 0; c < ids.size(); ++c)
-    if (state_[static_cast<size_t>(ids[c])] == kFree) candidates.push_back(static_cast<int32_t>(c));
+    if (state_[ids[c]] == kFree) candidates.push_back(static_cast<int32_t>(c));
   const Eigen::Index m = C.rows();
   std::vector<int32_t> chosen;
   if (static_cast<Eigen::Index>(candidates.size()) < m) return chosen;
@@ -116,7 +112,7 @@ std::vector<int32_t> Eliminator::choose_pivots(const Eigen::MatrixXd& C,
   const Eigen::VectorXd diagonal = qr.matrixQR().diagonal().cwiseAbs();
   if (diagonal(m - 1) > kDependent)
     for (Eigen::Index k = 0; k < m; ++k)
-      chosen.push_back(candidates[static_cast<size_t>(qr.colsPermutation().indices()(k))]);
+      chosen.push_back(candidates[qr.colsPermutation().indices()(k)]);
   return chosen;
 }
 
@@ -138,8 +134,8 @@ void Eliminator::check_fill(const std::string& where) const {
 /// `id` becomes the next pivot.
 void Eliminator::add_pivot(int32_t id, SparseRow row) {
   const auto number = static_cast<int32_t>(pivot_rows_.size());
-  state_[static_cast<size_t>(id)] = number;
-  for (const auto& entry : row) users_[static_cast<size_t>(entry.first)].push_back(number);
+  state_[id] = number;
+  for (const auto& entry : row) users_[entry.first].push_back(number);
   pivot_rows_.push_back(std::move(row));
 }
 
@@ -147,7 +143,7 @@ void Eliminator::add_pivot(int32_t id, SparseRow row) {
 void Eliminator::substitute(const std::vector<int32_t>& fresh) {
   std::vector<int32_t> rows;
   for (const int32_t id : fresh) {
-    std::vector<int32_t>& users = users_[static_cast<size_t>(id)];
+    std::vector<int32_t>& users = users_[id];
     rows.insert(rows.end(), users.begin(), users.end());
     users.clear();
   }
@@ -155,13 +151,13 @@ void Eliminator::substitute(const std::vector<int32_t>& fresh) {
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   for (const int32_t p : rows) {
     Functional row;
-    for (const auto& [id, value] : pivot_rows_[static_cast<size_t>(p)]) {
+    for (const auto& [id, value] : pivot_rows_[p]) {
       row.dofs.push_back(id);
       row.values.push_back(value);
     }
     SparseRow replaced = expand(row);
-    for (const auto& entry : replaced) users_[static_cast<size_t>(entry.first)].push_back(p);
-    pivot_rows_[static_cast<size_t>(p)] = std::move(replaced);
+    for (const auto& entry : replaced) users_[entry.first].push_back(p);
+    pivot_rows_[p] = std::move(replaced);
   }
 }
 
@@ -192,11 +188,10 @@ bool Eliminator::eliminate(const std::vector<Functional>& functionals,
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(m, static_cast<Eigen::Index>(ids.size()));
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(m);
   for (Eigen::Index r = 0; r < m; ++r) {
-    for (const auto& [id, value] : rows[static_cast<size_t>(r)])
+    for (const auto& [id, value] : rows[r])
       C(r, std::lower_bound(ids.begin(), ids.end(), id) - ids.begin()) = value;
     double largest = 0.0;
-    for (const double value : functionals[static_cast<size_t>(r)].values)
-      largest = std::max(largest, std::abs(value));
+    for (const double value : functionals[r].values) largest = std::max(largest, std::abs(value));
     if (largest > 0.0) scale(r) = 1.0 / largest;
   }
   C = scale.asDiagonal() * C;
@@ -209,8 +204,8 @@ bool Eliminator::eliminate(const std::vector<Functional>& functionals,
   std::vector<int32_t> fresh;
   std::vector<bool> is_pivot(ids.size(), false);
   for (const int32_t c : chosen) {
-    fresh.push_back(ids[static_cast<size_t>(c)]);
-    is_pivot[static_cast<size_t>(c)] = true;
+    fresh.push_back(ids[c]);
+    is_pivot[c] = true;
   }
   for (Eigen::Index k = 0; k < m; ++k) {
     SparseRow row;
@@ -219,9 +214,9 @@ bool Eliminator::eliminate(const std::vector<Functional>& functionals,
       if (!is_pivot[c] && value != 0.0) row.emplace_back(ids[c], value);
     }
     for (Eigen::Index g = 0; g < m; ++g)
-      if (by_q(k, g) != 0.0) row.emplace_back(q_ids[static_cast<size_t>(g)], by_q(k, g));
+      if (by_q(k, g) != 0.0) row.emplace_back(q_ids[g], by_q(k, g));
     std::sort(row.begin(), row.end());
-    add_pivot(fresh[static_cast<size_t>(k)], std::move(row));
+    add_pivot(fresh[k], std::move(row));
   }
   substitute(fresh);
   const auto width = static_cast<int64_t>(ids.size());
@@ -289,7 +284,7 @@ int32_t Eliminator::replace(const std::vector<Functional>& rows, int32_t state,
   std::iota(ids.begin(), ids.end(), first);
   for (const Functional& row : rows)
     for (const int32_t id : row.dofs)
-      if (state_[static_cast<size_t>(id)] == kKept) state_[static_cast<size_t>(id)] = kFree;
+      if (state_[id] == kKept) state_[id] = kFree;
   if (!eliminate(rows, ids)) refuse(where, rows.size());
   return first;
 }
@@ -317,9 +312,9 @@ Elimination Eliminator::finish() const {
     out.pivots.push_back(static_cast<int32_t>(dof));
     pivots.startVec(pivot);
     pivots_s.startVec(pivot);
-    for (const auto& [id, value] : pivot_rows_[static_cast<size_t>(state_[dof])]) {
-      const int32_t reduced = out.reduced_of[static_cast<size_t>(id)];
-      const int32_t support = out.support_of[static_cast<size_t>(id)];
+    for (const auto& [id, value] : pivot_rows_[state_[dof]]) {
+      const int32_t reduced = out.reduced_of[id];
+      const int32_t support = out.support_of[id];
       if (reduced >= 0) {
         t.insertBack(reduced, column) = value;
         pivots.insertBack(reduced, pivot) = value;

@@ -80,7 +80,7 @@ class Eliminator {
   Functional express(const Functional& functional);
   bool is_coordinate(int32_t id) const;
   bool is_held(int32_t id) const;
-  bool is_eliminated(int32_t id) const { return state_[static_cast<size_t>(id)] >= 0; }
+  bool is_eliminated(int32_t id) const { return state_[id] >= 0; }
   /// Ids that nodal displacements depend on, and those displacements themselves, as flags.
   std::vector<bool> moves_nodes(int64_t nodal_dofs) const;
 

@@ -85,7 +85,7 @@ ObliqueSupports hold_oblique(const PartData& part, const std::vector<HeldGroup>&
     if (group.along_axes || group.held[0].owner.is_point() != (owners == Owners::kPoints)) continue;
     std::vector<Functional> rows;
     for (const HeldDof& held : group.held) rows.push_back(held_functional(held, part.numbers));
-    const SupportSpec& spec = part.recipe.supports[static_cast<size_t>(group.held[0].support)];
+    const SupportSpec& spec = part.recipe.supports[group.held[0].support];
     const int32_t first = eliminator.hold(rows, spec.selection.where + ": " + group.held[0].label);
     for (size_t k = 0; k < group.held.size(); ++k)
       oblique.held[first + static_cast<int32_t>(k)] = group.held[k];
@@ -123,7 +123,7 @@ TurnedCoordinates turn_kept(const PartData& part, const Relations& relations,
         rows.emplace_back();
         for (int d = 0; d < 3; ++d) {
           if (std::abs(kept[k].along[d]) < kNoPart) continue;
-          rows.back().dofs.push_back(around[static_cast<size_t>(d)]);
+          rows.back().dofs.push_back(around[d]);
           rows.back().values.push_back(kept[k].along[d]);
         }
       }

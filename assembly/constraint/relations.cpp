@@ -39,7 +39,7 @@ std::vector<HeldGroup> gather_supports(const PartData& part, ConstraintGraph& gr
   for (const HeldGroup& group : supports)
     for (const HeldDof& held : group.held)
       for (const int32_t dof : held_functional(held, part.numbers).dofs)
-        graph.hold(dof, relations[static_cast<size_t>(held.support)]);
+        graph.hold(dof, relations[held.support]);
   return supports;
 }
 
@@ -157,7 +157,7 @@ OntoPoint gather_onto_point(const PartData& part, const CouplingSpec& spec,
   for (const Functional& row : onto.coupling.nodal_rows())
     on.insert(row.dofs.begin(), row.dofs.end());
   for (const int d : spec.directions) {
-    onto.ids.push_back(reference.ids[static_cast<size_t>(d)]);
+    onto.ids.push_back(reference.ids[d]);
     graph.depend(onto.ids.back(), {on.begin(), on.end()}, relation, true);
   }
   return onto;
@@ -326,10 +326,10 @@ std::vector<int32_t> rigid_body_of_nodes(const PartData& part,
                                       [](int d) { return d < 3; }) == 3;
     for (const TermSpec& followers : spec.terms)
       for (const NodeOrPoint owner : selected(followers.selection, part.mesh, part.numbers))
-        if (wholly && !owner.is_point()) body[static_cast<size_t>(owner.index)] = id;
+        if (wholly && !owner.is_point()) body[owner.index] = id;
     if (!on_point) continue;
-    const int32_t node = part.numbers.points()[static_cast<size_t>(point)].node;
-    if (node >= 0) body[static_cast<size_t>(node)] = id;
+    const int32_t node = part.numbers.points()[point].node;
+    if (node >= 0) body[node] = id;
   }
   return body;
 }

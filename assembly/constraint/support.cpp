@@ -27,7 +27,7 @@ bool is_new(const HeldGroup& group, const Eigen::Vector3d& direction) {
 }
 
 std::string owner_name(NodeOrPoint owner, const mesh::Mesh& mesh, const DofNumbers& numbers) {
-  if (owner.is_point()) return numbers.points()[static_cast<size_t>(owner.point())].name;
+  if (owner.is_point()) return numbers.points()[owner.point()].name;
   const auto node = static_cast<size_t>(owner.index);
   return fmt::format("{}", node < mesh.node_ids.size() ? mesh.node_ids[node] : owner.index + 1);
 }
@@ -74,8 +74,8 @@ std::vector<HeldGroup> plan_supports(const Recipe& recipe, const mesh::Mesh& mes
         held.owner = owner;
         held.is_rotation = d >= 3;
         held.direction = axes.col(d % 3);
-        held.label = fmt::format("{}.{}.{}", spec.name, owner_name(owner, mesh, numbers),
-                                 kDofNames[static_cast<size_t>(d)]);
+        held.label =
+            fmt::format("{}.{}.{}", spec.name, owner_name(owner, mesh, numbers), kDofNames[d]);
         HeldGroup& group = groups[numbers.of(owner, held.is_rotation ? 3 : 0)];
         if (!is_new(group, held.direction)) continue;
         group.along_axes =

@@ -34,11 +34,11 @@ std::array<Functional, 3> rotation_rows(const ProjectedNode& row, const Eigen::V
   std::array<Functional, 3> rows;
   for (int d = 0; d < 3; ++d)
     for (int r = 0; r < 3; ++r)
-      for (size_t k = 0; k < theta[static_cast<size_t>(r)].dofs.size(); ++k) {
-        const double value = lever(d, r) * theta[static_cast<size_t>(r)].values[k];
+      for (size_t k = 0; k < theta[r].dofs.size(); ++k) {
+        const double value = lever(d, r) * theta[r].values[k];
         if (std::abs(value) <= kNoMotion) continue;
-        rows[static_cast<size_t>(d)].dofs.push_back(theta[static_cast<size_t>(r)].dofs[k]);
-        rows[static_cast<size_t>(d)].values.push_back(value);
+        rows[d].dofs.push_back(theta[r].dofs[k]);
+        rows[d].values.push_back(value);
       }
   return rows;
 }
@@ -85,7 +85,7 @@ std::vector<Dependence> tie(const PartData& part, const TieSpec& given, int32_t 
         ++held;
         continue;
       }
-      Functional& on = rows[static_cast<size_t>(d)];
+      Functional& on = rows[d];
       for (const auto& [node, value] : row.on) {
         on.dofs.push_back(3 * node + d);
         on.values.push_back(value);

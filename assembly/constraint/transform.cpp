@@ -49,7 +49,7 @@ struct Sorter {
   Sorter(const Elimination& e, bool supports)
       : elimination(e), with_supports(supports), pivot_number(e.reduced_of.size(), -1) {
     for (size_t p = 0; p < e.pivots.size(); ++p)
-      pivot_number[static_cast<size_t>(e.pivots[p])] = static_cast<int32_t>(p);
+      pivot_number[e.pivots[p]] = static_cast<int32_t>(p);
   }
 
   /// True when the entry stays in A_ff.
@@ -90,10 +90,10 @@ Split split(SparseMatrix&& lower, const Elimination& elimination, bool with_supp
   for (Eigen::Index col = 0; col < parts.storage.cols(); ++col) {
     for (int32_t from = outer[col]; from < outer[col + 1]; ++from) {
       if (!sorter.sort(inner[from], col, values[from])) continue;
-      inner[to] = elimination.reduced_of[static_cast<size_t>(inner[from])];
+      inner[to] = elimination.reduced_of[inner[from]];
       values[to++] = values[from];
     }
-    const int32_t reduced = elimination.reduced_of[static_cast<size_t>(col)];
+    const int32_t reduced = elimination.reduced_of[col];
     if (reduced >= 0) parts.outer[static_cast<size_t>(reduced) + 1] = to;
   }
   // The generalised coordinates follow the displacements and have no entries yet.

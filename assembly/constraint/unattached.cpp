@@ -39,8 +39,8 @@ std::vector<bool> moving_ids(const PartData& part, const Relations& relations,
                              Eliminator& eliminator) {
   std::vector<bool> moves = eliminator.moves_nodes(part.numbers.nodal());
   for_each_elastic(part, relations, [&](const Functional& one) {
-    for (const int32_t id : one.dofs) moves[static_cast<size_t>(id)] = true;
-    for (const int32_t id : eliminator.express(one).dofs) moves[static_cast<size_t>(id)] = true;
+    for (const int32_t id : one.dofs) moves[id] = true;
+    for (const int32_t id : eliminator.express(one).dofs) moves[id] = true;
   });
   return moves;
 }
@@ -54,7 +54,7 @@ std::vector<bool> massive_ids(const PartData& part, const Relations& relations,
                             6 * relations.references.size());
   const auto add = [&](int32_t of) {
     for (const int32_t id : eliminator.express({{of}, {1.0}}).dofs)
-      if (static_cast<size_t>(id) < massive.size()) massive[static_cast<size_t>(id)] = true;
+      if (static_cast<size_t>(id) < massive.size()) massive[id] = true;
   };
   for (size_t m = 0; m < recipe.matrices.size(); ++m)
     for (size_t i = 0; i < recipe.matrices[m].terms.size(); ++i)
@@ -104,11 +104,11 @@ void drop_loose(const Reference& reference, const IdFlags& flags, Eliminator& el
   bool attached = false;
   for (size_t d = 0; d < 6; ++d) {
     const int32_t id = reference.dofs.ids[d];
-    const bool moves = flags.moves[static_cast<size_t>(id)];
+    const bool moves = flags.moves[id];
     attached = attached || moves || eliminator.is_eliminated(id);
     if (!eliminator.is_coordinate(id) || moves) continue;
     loose.push_back(kDofNames[d]);
-    if (flags.massive[static_cast<size_t>(id)]) refuse_mass(reference, kDofNames[d]);
+    if (flags.massive[id]) refuse_mass(reference, kDofNames[d]);
     eliminator.drop(id);
   }
   if (!attached)
@@ -130,7 +130,7 @@ std::vector<Matrix6> motion_grams(const PartData& part, const Relations& relatio
   std::vector<Matrix6> grams(references.size(), Matrix6::Zero());
   for (size_t k = 0; k < references.size(); ++k)
     for (Eigen::Index d = 0; d < 6; ++d) {
-      const int32_t id = references[k].dofs.ids[static_cast<size_t>(d)];
+      const int32_t id = references[k].dofs.ids[d];
       if (!eliminator.is_coordinate(id)) continue;
       place.emplace(id, std::pair(k, d));
       if (id < part.numbers.nodal()) grams[k](d, d) += 1.0;  // a point on a node moves the node
@@ -201,7 +201,7 @@ void omit_still_rotations(const Reference& reference, const Matrix6& gram, const
   const Eigen::Matrix3d axes = dense::symmetric_eigen(rotations).vectors;
   for (int k = 0; k < still; ++k) {
     const Eigen::Vector3d axis = axes.col(k);
-    if (!all([&](int32_t id) { return !flags.massive[static_cast<size_t>(id)]; }))
+    if (!all([&](int32_t id) { return !flags.massive[id]; }))
       refuse_mass(reference, axis_text(axis));
     say(fmt::format("{}: {} omitted: nothing is attached", reference.name, axis_text(axis)));
   }

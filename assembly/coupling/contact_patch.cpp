@@ -124,7 +124,7 @@ void describe_set(const std::string& name, const PatchGridSpec& spec, const rom:
   set.kind = "contact_grid";
   set.position.resize(patches, 3);
   set.direction.resize(patches, 3);
-  set.is_rotation.assign(static_cast<size_t>(patches), 0);
+  set.is_rotation.assign(patches, 0);
   for (Eigen::Index i = 0; i < grid.angle.size(); ++i) {
     for (Eigen::Index j = 0; j < grid.axial.size(); ++j) {
       const Eigen::Index p = i * grid.axial.size() + j;
@@ -152,14 +152,14 @@ PatchCoupling contact_patches(const std::string& name, const RowMatrix& coordina
   Eigen::VectorXd area = Eigen::VectorXd::Zero(patches);
   out.nodes_per_patch = Eigen::VectorXi::Zero(patches);
   out.coupling.disjoint = true;
-  out.coupling.rows.resize(static_cast<size_t>(patches));
+  out.coupling.rows.resize(patches);
   const double dust = 1e-12 * surface.weight.cwiseAbs().maxCoeff();
   for (size_t k = 0; k < positions.size(); ++k) {
     const double weight = surface.weight(static_cast<Eigen::Index>(k));
     const Eigen::Index patch = patch_at(out.grid, positions[k]);
     // Corner nodes of flat quadratic faces have no weight and are skipped.
     if (patch < 0 || std::abs(weight) <= dust) continue;
-    Functional& row = out.coupling.rows[static_cast<size_t>(patch)];
+    Functional& row = out.coupling.rows[patch];
     for (int d = 0; d < 3; ++d) {
       const double value = weight * positions[k].radial(d);
       if (value == 0.0) continue;
@@ -171,7 +171,7 @@ PatchCoupling contact_patches(const std::string& name, const RowMatrix& coordina
   }
   require_area(out.grid, area, where);
   for (Eigen::Index p = 0; p < patches; ++p)
-    for (double& value : out.coupling.rows[static_cast<size_t>(p)].values) value /= area(p);
+    for (double& value : out.coupling.rows[p].values) value /= area(p);
   return out;
 }
 

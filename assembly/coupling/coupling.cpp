@@ -70,7 +70,7 @@ Matrix6 inverse_on_range(const Matrix6& A, const Extent& extent, const Matrix6& 
         throw InputError(fmt::format(
             "{}: found nodes that do not define {} of the reference (on a line or at a point), "
             "expected a face with area or nodes that define it",
-            where, kDofNames[static_cast<size_t>(d)]));
+            where, kDofNames[d]));
   }
   return scale.asDiagonal() * vectors * inverse.asDiagonal() * vectors.transpose() *
          scale.asDiagonal();
@@ -84,7 +84,7 @@ std::vector<Functional> Coupling::nodal_rows() const {
   for (const Functional& row : rows) {
     Functional flat;
     for (size_t k = 0; k < row.dofs.size(); ++k) {
-      const Functional& mean = means[static_cast<size_t>(row.dofs[k])];
+      const Functional& mean = means[row.dofs[k]];
       for (size_t a = 0; a < mean.dofs.size(); ++a) {
         flat.dofs.push_back(mean.dofs[a]);
         flat.values.push_back(row.values[k] * mean.values[a]);
@@ -137,8 +137,8 @@ rom::DofSet reference_set(const std::string& name, const std::string& kind,
   set.position = point.transpose().replicate(count, 1);
   set.direction = Eigen::MatrixXd::Zero(count, 3);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const int d = directions[static_cast<size_t>(k)];
-    set.labels.push_back(name + "." + kDofNames[static_cast<size_t>(d)]);
+    const int d = directions[k];
+    set.labels.push_back(name + "." + kDofNames[d]);
     set.direction(k, d % 3) = 1.0;
     set.is_rotation.push_back(d < 3 ? 0 : 1);
   }

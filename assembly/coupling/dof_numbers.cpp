@@ -6,7 +6,7 @@
 namespace clatter::assembly {
 
 int32_t DofNumbers::of_point(int32_t point, int d) const {
-  const int32_t node = points_[static_cast<size_t>(point)].node;
+  const int32_t node = points_[point].node;
   if (node >= 0 && d < 3) return 3 * node + d;
   return static_cast<int32_t>(nodal()) + 6 * point + d;
 }
@@ -17,7 +17,7 @@ int32_t DofNumbers::of(NodeOrPoint owner, int d) const {
 }
 
 Eigen::Vector3d DofNumbers::position(NodeOrPoint owner) const {
-  if (owner.is_point()) return points_[static_cast<size_t>(owner.point())].position;
+  if (owner.is_point()) return points_[owner.point()].position;
   return nodes_.row(owner.index).transpose();
 }
 
@@ -25,7 +25,7 @@ std::string DofNumbers::name(int32_t id, const std::vector<int32_t>& node_ids) c
   if (id < nodal()) {
     const auto node = static_cast<size_t>(id / 3);
     const int32_t number = node < node_ids.size() ? node_ids[node] : id / 3 + 1;
-    return fmt::format("node {} {}", number, kDofNames[static_cast<size_t>(id % 3)]);
+    return fmt::format("node {} {}", number, kDofNames[id % 3]);
   }
   if (id >= count()) return fmt::format("generalised coordinate {}", id - count());
   const auto at = static_cast<size_t>(id - nodal());

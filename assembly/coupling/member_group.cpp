@@ -68,10 +68,10 @@ void set_rows(const Eigen::MatrixXd& C, const std::vector<MemberGroup>& groups,
   });
   std::vector<int32_t> id(static_cast<size_t>(C.cols()), -1);
   for (Eigen::Index c = 0; c < C.cols(); ++c) {
-    const MemberGroup& group = groups[static_cast<size_t>(c / 6)];
+    const MemberGroup& group = groups[c / 6];
     const auto d = static_cast<size_t>(c % 6);
     if (C.col(c).isZero(0.0)) continue;  // a direction that no row uses
-    id[static_cast<size_t>(c)] =
+    id[c] =
         direct ? members[group.members[0]].dofs[d] : static_cast<int32_t>(coupling.means.size());
     if (direct) continue;
     Functional mean;
@@ -84,7 +84,7 @@ void set_rows(const Eigen::MatrixXd& C, const std::vector<MemberGroup>& groups,
     Functional row;
     for (Eigen::Index c = 0; c < C.cols(); ++c) {
       if (std::abs(C(r, c)) <= least) continue;
-      row.dofs.push_back(id[static_cast<size_t>(c)]);
+      row.dofs.push_back(id[c]);
       row.values.push_back(C(r, c));
     }
     coupling.rows.push_back(std::move(row));

@@ -16,7 +16,7 @@ struct Member {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      // [m]
   double weight = 0.0;                                     // > 0
 
-  bool has(int d) const { return dofs[static_cast<size_t>(d)] >= 0; }
+  bool has(int d) const { return dofs[d] >= 0; }
 };
 
 /// Members represented by their weighted mean.

@@ -15,7 +15,7 @@ std::vector<Dependence> rigid_dependences(const DofNumbers& numbers, NodeOrPoint
     if (one.dof < 0) continue;
     for (int r = 0; r < 6; ++r) {
       if (motion(d, r) == 0.0) continue;
-      one.on.dofs.push_back(reference.ids[static_cast<size_t>(r)]);
+      one.on.dofs.push_back(reference.ids[r]);
       one.on.values.push_back(motion(d, r));
     }
     // A node that is its own reference.

@@ -14,19 +14,19 @@ HeatBodies::HeatBodies(const mesh::Mesh& mesh) : parent_(static_cast<size_t>(mes
 int32_t HeatBodies::root(int32_t node) const {
   auto at = static_cast<size_t>(node);
   while (parent_[at] != static_cast<int32_t>(at)) {
-    parent_[at] = parent_[static_cast<size_t>(parent_[at])];
+    parent_[at] = parent_[parent_[at]];
     at = static_cast<size_t>(parent_[at]);
   }
   return static_cast<int32_t>(at);
 }
 
-void HeatBodies::join(int32_t a, int32_t b) { parent_[static_cast<size_t>(root(a))] = root(b); }
+void HeatBodies::join(int32_t a, int32_t b) { parent_[root(a)] = root(b); }
 
 std::optional<int32_t> HeatBodies::first_loose() const {
   std::vector<bool> held(parent_.size(), false);
-  for (const int32_t node : fixed_) held[static_cast<size_t>(root(node))] = true;
+  for (const int32_t node : fixed_) held[root(node)] = true;
   for (size_t a = 0; a < parent_.size(); ++a)
-    if (!held[static_cast<size_t>(root(static_cast<int32_t>(a)))]) return static_cast<int32_t>(a);
+    if (!held[root(static_cast<int32_t>(a))]) return static_cast<int32_t>(a);
   return std::nullopt;
 }
 

@@ -164,7 +164,7 @@ void add_heat(const HeatProblem& problem, const Eigen::VectorXd& reactions, doub
     heat.push_back(0.0);
   }
   for (const auto& [node, which] : problem.fixed.which)
-    heat[first + which] += reactions(problem.elimination.support_of[static_cast<size_t>(node)]);
+    heat[first + which] += reactions(problem.elimination.support_of[node]);
   field.heat =
       Eigen::Map<const Eigen::VectorXd>(heat.data(), static_cast<Eigen::Index>(heat.size()));
   // A part of one temperature: what is left is the rounding of the terms.
@@ -177,8 +177,7 @@ fe::HeatField solve_one_heat(const PartData& part, const HeatSpec& spec,
   HeatProblem problem = problem_of(part, spec, cells);
   const Elimination& e = problem.elimination;
   Eigen::VectorXd s(e.supports());
-  for (const auto& [node, kelvin] : problem.fixed.kelvin)
-    s(e.support_of[static_cast<size_t>(node)]) = kelvin;
+  for (const auto& [node, kelvin] : problem.fixed.kelvin) s(e.support_of[node]) = kelvin;
   const CoordinateBlocks K = transform_with_supports(std::move(problem.K), e);
   Eigen::VectorXd f = e.T.transpose() * problem.q;
   if (s.size() > 0) f -= K.sq.transpose() * s;

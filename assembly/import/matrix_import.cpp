@@ -19,9 +19,7 @@ using Kind = rom::MappedDof::Kind;
 /// To SI: rows and columns of rotations are multiplied by a length.
 void scale(SparseMatrix& matrix, double unit, double length,
            const std::vector<rom::MappedDof>& dofs) {
-  const auto arm = [&](Eigen::Index j) {
-    return dofs[static_cast<size_t>(j)].kind == Kind::kRotation ? length : 1.0;
-  };
+  const auto arm = [&](Eigen::Index j) { return dofs[j].kind == Kind::kRotation ? length : 1.0; };
   for (Eigen::Index j = 0; j < matrix.cols(); ++j)
     for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
       entry.valueRef() *= unit * arm(entry.row()) * arm(j);
@@ -65,11 +63,10 @@ rom::MassProperties mass_of(const SparseMatrix& M, const Eigen::MatrixXd& rigid)
 SparseMatrix rows_and_columns(const SparseMatrix& lower, const std::vector<int32_t>& coordinate,
                               int32_t size) {
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<size_t>(lower.nonZeros()));
+  entries.reserve(lower.nonZeros());
   for (Eigen::Index j = 0; j < lower.cols(); ++j) {
     for (SparseMatrix::InnerIterator entry(lower, j); entry; ++entry) {
-      const int32_t p = coordinate[static_cast<size_t>(entry.row())],
-                    q = coordinate[static_cast<size_t>(j)];
+      const int32_t p = coordinate[entry.row()], q = coordinate[j];
       if (p >= 0 && q >= 0) entries.emplace_back(p, q, entry.value());
     }
   }

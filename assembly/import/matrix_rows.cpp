@@ -21,7 +21,7 @@ void check_directions(const MatrixRows& layout, const std::string& file) {
   for (size_t j = 0; j < layout.dofs.size(); ++j) {
     const rom::MappedDof& dof = layout.dofs[j];
     if (dof.kind != Kind::kDisplacement) continue;
-    auto& others = of_node[static_cast<size_t>(layout.node[j])];
+    auto& others = of_node[layout.node[j]];
     for (const size_t other : others) {
       // More than three cannot be orthogonal either.
       if (std::abs(layout.dofs[other].direction.dot(dof.direction)) > 1e-6)
@@ -41,14 +41,12 @@ MatrixRows matrix_rows(const mesh::Mesh& mesh) {
   layout.nodes = mesh.nodes;
   std::vector<int32_t> order(static_cast<size_t>(mesh.nodes.rows()));
   std::iota(order.begin(), order.end(), 0);
-  const auto number = [&](int32_t a) {
-    return mesh.node_ids.empty() ? a + 1 : mesh.node_ids[static_cast<size_t>(a)];
-  };
+  const auto number = [&](int32_t a) { return mesh.node_ids.empty() ? a + 1 : mesh.node_ids[a]; };
   std::sort(order.begin(), order.end(),
             [&](int32_t a, int32_t b) { return number(a) < number(b); });
   std::vector<int32_t> first(order.size());  // DoF of each node
   for (const int32_t a : order) {
-    first[static_cast<size_t>(a)] = static_cast<int32_t>(layout.dofs.size());
+    first[a] = static_cast<int32_t>(layout.dofs.size());
     for (int d = 0; d < 3; ++d) {
       rom::MappedDof dof;
       dof.kind = Kind::kDisplacement;
@@ -63,7 +61,7 @@ MatrixRows matrix_rows(const mesh::Mesh& mesh) {
   }
   for (const auto& [name, nodes] : mesh.node_sets)
     for (const int32_t a : nodes)
-      for (int d = 0; d < 3; ++d) layout.sets[name].push_back(first[static_cast<size_t>(a)] + d);
+      for (int d = 0; d < 3; ++d) layout.sets[name].push_back(first[a] + d);
   return layout;
 }
 
@@ -122,7 +120,7 @@ std::map<std::string, rom::DofSet> sets_of(const MatrixRows& layout,
   for (const auto& [name, members] : layout.sets) {
     std::vector<int32_t> left;
     for (const int32_t j : members)
-      if (coordinate[static_cast<size_t>(j)] >= 0) left.push_back(j);
+      if (coordinate[j] >= 0) left.push_back(j);
     if (left.empty()) continue;
     rom::DofSet& set = sets[name];
     set.kind = "node";
@@ -130,8 +128,8 @@ std::map<std::string, rom::DofSet> sets_of(const MatrixRows& layout,
     set.direction.resize(static_cast<Eigen::Index>(left.size()), 3);
     for (size_t k = 0; k < left.size(); ++k) {
       const auto row = static_cast<Eigen::Index>(k);
-      const rom::MappedDof& dof = layout.dofs[static_cast<size_t>(left[k])];
-      set.dofs.push_back(coordinate[static_cast<size_t>(left[k])]);
+      const rom::MappedDof& dof = layout.dofs[left[k]];
+      set.dofs.push_back(coordinate[left[k]]);
       set.labels.push_back(dof.label);
       set.position.row(row) = dof.position;
       set.direction.row(row) = dof.direction;

@@ -16,7 +16,7 @@ Eigen::VectorXd centrifugal_load(const mesh::Mesh& mesh, const std::vector<fe::M
     if (!regions.empty() &&
         std::find(regions.begin(), regions.end(), block.region) == regions.end())
       continue;
-    const double density = materials.at(static_cast<size_t>(block.region)).density;
+    const double density = materials.at(block.region).density;
     for_each_mass_point(mesh, block, density,
                         [&](Eigen::Index c, const auto& N, const Eigen::Vector3d& at, double dm) {
                           const Eigen::Vector3d body = dm * axis.arm(at);

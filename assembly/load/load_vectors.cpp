@@ -70,7 +70,7 @@ Eigen::VectorXd rotation_force(const PartData& part, const LoadSpec& load) {
   for (const PointMassSpec& spec : part.recipe.point_masses) {
     const int32_t point = find_point(part.recipe, spec.on);
     if (point < 0) continue;
-    const Eigen::Vector3d position = part.recipe.points[static_cast<size_t>(point)].point.position;
+    const Eigen::Vector3d position = part.recipe.points[point].point.position;
     const auto force = centrifugal_force(spec, position, load.axis);
     for (int d = 0; d < 6; ++d) forces(part.numbers.of_point(point, d)) += force(d);
   }

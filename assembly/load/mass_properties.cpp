@@ -23,7 +23,7 @@ MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<fe::Materia
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   for (const mesh::CellBlock& block : mesh.cells) {
-    const double density = materials.at(static_cast<size_t>(block.region)).density;
+    const double density = materials.at(block.region).density;
     for_each_mass_point(mesh, block, density,
                         [&](Eigen::Index, const auto&, const Eigen::Vector3d& at, double dm) {
                           const Eigen::Vector3d arm = at - about;

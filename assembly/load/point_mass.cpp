@@ -65,15 +65,14 @@ void add_to_set(SparseMatrix& M, const PointMassSpec& spec, const rom::DofSet& s
   const Eigen::Matrix<double, 6, 6> block = mass_block(spec);
   std::array<int32_t, 6> dofs;
   dofs.fill(-1);
-  for (size_t k = 0; k < set.dofs.size(); ++k)
-    dofs[static_cast<size_t>(dof_of(set, k))] = set.dofs[k];
+  for (size_t k = 0; k < set.dofs.size(); ++k) dofs[dof_of(set, k)] = set.dofs[k];
   for (int a = 0; a < 6; ++a) {
-    const int32_t row = dofs[static_cast<size_t>(a)];
+    const int32_t row = dofs[a];
     if (row < 0 && block(a, a) > 0.0)
       throw InputError(fmt::format("{}: found no coordinate {} that moves the mass, expected one",
-                                   spec.where, kDofNames[static_cast<size_t>(a)]));
+                                   spec.where, kDofNames[a]));
     for (int b = 0; b < 6; ++b) {
-      const int32_t col = dofs[static_cast<size_t>(b)];
+      const int32_t col = dofs[b];
       if (row >= col && col >= 0 && block(a, b) != 0.0) M.coeffRef(row, col) += block(a, b);
     }
   }

@@ -47,7 +47,7 @@ void add_matrices(const std::vector<MatrixSpec>& matrices, const std::vector<Fun
     if (matrices[m].is_mass != of_mass) continue;
     const Eigen::MatrixXd& values = matrices[m].values;
     for (Eigen::Index i = 0; i < values.rows(); ++i) {
-      c.emplace_back(row + static_cast<int32_t>(i), dofs[m].dofs[static_cast<size_t>(i)], 1.0);
+      c.emplace_back(row + static_cast<int32_t>(i), dofs[m].dofs[i], 1.0);
       for (Eigen::Index j = 0; j < values.cols(); ++j)
         if (values(i, j) != 0.0)
           s.emplace_back(row + static_cast<int32_t>(i), row + static_cast<int32_t>(j),

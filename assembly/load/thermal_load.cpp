@@ -9,7 +9,7 @@ Eigen::VectorXd thermal_load(const mesh::Mesh& mesh, const std::vector<fe::Mater
                              const Eigen::VectorXd& dT) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * mesh.nodes.rows());
   for (const mesh::CellBlock& block : mesh.cells) {
-    const fe::Material& material = materials.at(static_cast<size_t>(block.region));
+    const fe::Material& material = materials.at(block.region);
     if (material.expansion.isZero(0.0)) continue;
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       const Eigen::VectorXd rise = dT(block.nodes.row(c));

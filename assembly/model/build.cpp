@@ -97,7 +97,7 @@ rom::DofSet support_set(const std::vector<HeldDof>& held, const DofNumbers& numb
   set.position.resize(n, 3);
   set.direction.resize(n, 3);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const HeldDof& one = held[static_cast<size_t>(k)];
+    const HeldDof& one = held[k];
     set.dofs.push_back(static_cast<int32_t>(k));
     set.labels.push_back(one.label);
     set.position.row(k) = numbers.position(one.owner).transpose();
@@ -167,7 +167,7 @@ rom::MassProperties mass_of(const PartData& part, const Constrained& constrained
     if (point < 0) {
       add_moments(moments, spec, constrained.sets.at(spec.on));
     } else {
-      const Eigen::Vector3d& position = part.numbers.points()[static_cast<size_t>(point)].position;
+      const Eigen::Vector3d& position = part.numbers.points()[point].position;
       add_point(moments, spec.mass, position + spec.offset, spec.inertia);
     }
   }

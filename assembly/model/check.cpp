@@ -29,7 +29,7 @@ void check_references(const std::string& name, const std::map<std::string, rom::
     Eigen::MatrixXd block(n, n);
     for (Eigen::Index a = 0; a < n; ++a)
       for (Eigen::Index b = 0; b <= a; ++b) {
-        const int32_t i = dofs[static_cast<size_t>(a)], j = dofs[static_cast<size_t>(b)];
+        const int32_t i = dofs[a], j = dofs[b];
         block(a, b) = block(b, a) = M.coeff(std::max(i, j), std::min(i, j));
       }
     const Eigen::VectorXd scale = block.diagonal().cwiseSqrt().cwiseInverse();

@@ -32,8 +32,7 @@ const keys::Keys<PointSpec>& RecipeKeys::point_keys() {
         table.fail("node_set", fmt::format("found {} nodes, expected one", nodes.size()));
       p.point.node = nodes[0];
       p.point.position = names_.mesh.nodes.row(nodes[0]).transpose();
-      if (!names_.mesh.node_ids.empty())
-        p.number = names_.mesh.node_ids[static_cast<size_t>(nodes[0])];
+      if (!names_.mesh.node_ids.empty()) p.number = names_.mesh.node_ids[nodes[0]];
     });
   };
   return keep<PointSpec>("point", "a reference node with six DoFs of its own", rows);
@@ -185,7 +184,7 @@ const keys::Keys<TermTable>& RecipeKeys::term_keys() {
       if (t.term.direction >= 3)
         config.fail("direction",
                     fmt::format("found \"{}\", expected x, y or z: nodes do not rotate",
-                                kDofNames[static_cast<size_t>(t.term.direction)]));
+                                kDofNames[t.term.direction]));
     });
   };
   return keep<TermTable>("terms", "one direction of one node or point", rows);

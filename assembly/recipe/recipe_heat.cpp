@@ -122,7 +122,7 @@ const keys::Keys<HeatSpec::Source>& RecipeKeys::source_keys() {
       if (!table.has("regions")) s.regions = names_.mesh.regions;
       s.power.assign(names_.mesh.regions.size(), 0.0);
       for (const std::string& name : s.regions)
-        s.power[static_cast<size_t>(names_.region(table, "regions", name))] = s.value;
+        s.power[names_.region(table, "regions", name)] = s.value;
     });
   };
   return keep<HeatSpec::Source>("source", "heat that regions generate", rows);

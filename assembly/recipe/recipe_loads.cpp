@@ -87,15 +87,15 @@ RowMatrix RecipeKeys::values_of_table(const Config& table, const std::filesystem
 Eigen::VectorXd RecipeKeys::rise_of_regions(const Config& table, const LoadTable& load) const {
   std::vector<double> rise(names_.mesh.regions.size(), 0.0);
   for (const auto& [name, value] : load.rises)
-    rise[static_cast<size_t>(names_.region(table.table("regions"), name, name))] = value;
+    rise[names_.region(table.table("regions"), name, name)] = value;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(names_.mesh.nodes.rows()), regions = sum;
   for (size_t r = 0; r < rise.size(); ++r) {
     std::vector<bool> inside(static_cast<size_t>(sum.size()), false);
     for (const mesh::CellBlock& block : names_.mesh.cells)
       if (static_cast<size_t>(block.region) == r)
-        for (const int32_t node : block.nodes.reshaped()) inside[static_cast<size_t>(node)] = true;
+        for (const int32_t node : block.nodes.reshaped()) inside[node] = true;
     for (Eigen::Index a = 0; a < sum.size(); ++a)
-      if (inside[static_cast<size_t>(a)]) sum(a) += rise[r], regions(a) += 1.0;
+      if (inside[a]) sum(a) += rise[r], regions(a) += 1.0;
   }
   return sum.cwiseQuotient(regions);
 }

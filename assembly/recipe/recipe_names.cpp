@@ -82,7 +82,7 @@ void check_directions(const Config& table, const Selection& selection,
   for (const int d : directions)
     if (d >= 3 && selection.point.empty())
       table.fail("directions", fmt::format("found \"{}\", expected x, y or z: nodes do not rotate",
-                                           kDofNames[static_cast<size_t>(d)]));
+                                           kDofNames[d]));
 }
 
 }  // namespace clatter::assembly

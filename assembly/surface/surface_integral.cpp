@@ -24,8 +24,7 @@ SurfaceIntegrals integrate_surface(const RowMatrix& coordinates, const mesh::Sur
   mesh::for_each_face_point(coordinates, surface, add);
   out.area = out.weight.sum();
   for (Eigen::Index k = 0; k < n; ++k)
-    out.centroid +=
-        out.weight(k) / out.area * coordinates.row(out.nodes[static_cast<size_t>(k)]).transpose();
+    out.centroid += out.weight(k) / out.area * coordinates.row(out.nodes[k]).transpose();
   return out;
 }
 

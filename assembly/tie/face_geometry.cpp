@@ -22,7 +22,7 @@ std::vector<TieFace> tie_faces(const RowMatrix& coordinates, const mesh::Surface
       face.type = block.type;
       face.x.resize(block.nodes.cols(), 3);
       for (Eigen::Index k = 0; k < block.nodes.cols(); ++k) {
-        face.nodes[static_cast<size_t>(k)] = block.nodes(f, k);
+        face.nodes[k] = block.nodes(f, k);
         face.x.row(k) = coordinates.row(block.nodes(f, k));
       }
       faces.push_back(face);
@@ -55,7 +55,7 @@ const std::vector<Facet>& facets_of(mesh::FaceType type) {
 
 Plane plane_of(const TieFace& face, const Facet& facet) {
   const auto corner = [&](int k) -> Eigen::Vector3d {
-    return face.x.row(facet.corners[static_cast<size_t>(k)]).transpose();
+    return face.x.row(facet.corners[k]).transpose();
   };
   Plane plane;
   for (int k = 0; k < facet.size; ++k) plane.origin += corner(k) / facet.size;

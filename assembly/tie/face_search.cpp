@@ -50,7 +50,7 @@ std::vector<int32_t> FaceSearch::near(const Eigen::AlignedBox3d& box) const {
     const auto cell = cells_.find(key);
     if (cell == cells_.end()) return;
     for (const int32_t face : cell->second)
-      if (boxes_[static_cast<size_t>(face)].intersects(box)) found.push_back(face);
+      if (boxes_[face].intersects(box)) found.push_back(face);
   });
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());

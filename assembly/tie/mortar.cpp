@@ -71,8 +71,8 @@ class Integrator {
       const Plane plane = plane_of(slave, facet);
       const Polygon subject = polygon_of(slave, facet, plane);
       for (const int32_t m : near)
-        for (const Facet& other : facets_of(master_[static_cast<size_t>(m)].type))
-          add_pair(slave, S, plane, subject, master_[static_cast<size_t>(m)], other, sums);
+        for (const Facet& other : facets_of(master_[m].type))
+          add_pair(slave, S, plane, subject, master_[m], other, sums);
     }
     return sums;
   }
@@ -81,8 +81,7 @@ class Integrator {
   static Polygon polygon_of(const TieFace& face, const Facet& facet, const Plane& plane) {
     Polygon polygon;
     for (int k = 0; k < facet.size; ++k)
-      polygon.push_back(
-          plane.project(face.x.row(facet.corners[static_cast<size_t>(k)]).transpose()));
+      polygon.push_back(plane.project(face.x.row(facet.corners[k]).transpose()));
     return polygon;
   }
 
@@ -136,7 +135,7 @@ class Integrator {
       sums.gram += weight * value * value.transpose();
       sums.area += weight;
       for (int k = 0; k < master.size(); ++k) {
-        SmallVector& sum = sums.coupling[master.nodes[static_cast<size_t>(k)]];
+        SmallVector& sum = sums.coupling[master.nodes[k]];
         if (sum.size() == 0) sum = SmallVector::Zero(value.size());
         sum += weight * on_master.value(k) * value;
       }
@@ -164,18 +163,16 @@ void add_face(const TieFace& face, const FaceIntegrals& integrals,
   const Eigen::LDLT<Small> factor(integrals.gram);
   for (const auto& [k, column] : integrals.coupling) {
     const SmallVector dual = weights.asDiagonal() * factor.solve(column).eval();
-    for (int j = 0; j < face.size(); ++j) sums[face.nodes[static_cast<size_t>(j)]].on[k] += dual(j);
+    for (int j = 0; j < face.size(); ++j) sums[face.nodes[j]].on[k] += dual(j);
   }
-  for (int j = 0; j < face.size(); ++j)
-    sums[face.nodes[static_cast<size_t>(j)]].weight += weights(j);
+  for (int j = 0; j < face.size(); ++j) sums[face.nodes[j]].weight += weights(j);
 }
 
 void note_ends(const TieFace& face, std::map<int32_t, NodeSums>& sums) {
   const mesh::FaceTraits& traits = mesh::traits(face.type);
   for (int e = 0; traits.order == 2 && e < traits.corners; ++e)
-    sums[face.nodes[static_cast<size_t>(traits.corners + e)]].ends = {
-        face.nodes[static_cast<size_t>(e)],
-        face.nodes[static_cast<size_t>((e + 1) % traits.corners)]};
+    sums[face.nodes[traits.corners + e]].ends = {face.nodes[e],
+                                                 face.nodes[(e + 1) % traits.corners]};
 }
 
 bool is_tied(const NodeSums& sums) { return sums.weight > kLeastWeight * sums.full; }
@@ -225,7 +222,7 @@ Projection project(const std::vector<TieFace>& slave, const std::vector<TieFace>
     const Small S = modified_basis(face.type);
     double area = 0.0;
     const SmallVector full = full_weights(face, S, area);
-    for (int j = 0; j < face.size(); ++j) sums[face.nodes[static_cast<size_t>(j)]].full += full(j);
+    for (int j = 0; j < face.size(); ++j) sums[face.nodes[j]].full += full(j);
     note_ends(face, sums);
     out.slave_area += area;
     const FaceIntegrals integrals = integrator.integrate(face, S);

@@ -92,7 +92,7 @@ void Exponential::factor(const Stage& stage, const Modes& modes) {
     for (int e = 0; e < system_.elements(); ++e) {
       const auto& at = system_.element(e).coordinates();
       std::vector<int> rows;
-      for (const int i : system_.tangent_rows(e)) rows.push_back(at[static_cast<size_t>(i)]);
+      for (const int i : system_.tangent_rows(e)) rows.push_back(at[i]);
       if (rows.empty()) rows = at;
       const MatrixXd& own_tangent = system_.response(e).tangent;
       for (size_t j = 0; j < rows.size(); ++j)

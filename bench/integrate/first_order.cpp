@@ -38,7 +38,7 @@ FirstOrder::FirstOrder(dynamics::System& system, bool events_of_contacts) : syst
   }
   D_ = VectorXd::Ones(next);
   for (int k = 0; k < N; ++k)
-    if (v_at_[static_cast<size_t>(k)] < 0) D_(k) = system.damping()(k);
+    if (v_at_[k] < 0) D_(k) = system.damping()(k);
   v_.setZero(N);
   for (int e = 0; e < system.elements(); ++e) {
     const int groups = static_cast<int>(system.groups(e).size());
@@ -53,12 +53,12 @@ FirstOrder::FirstOrder(dynamics::System& system, bool events_of_contacts) : syst
 }
 
 int FirstOrder::row_of(int mode) const {
-  const int v = v_at_[static_cast<size_t>(mode)];
+  const int v = v_at_[mode];
   return v < 0 ? mode : v;
 }
 
 FirstOrder::Block FirstOrder::block_of(int element, int group) const {
-  const std::vector<int>& at = system_->groups(element)[static_cast<size_t>(group)];
+  const std::vector<int>& at = system_->groups(element)[group];
   Block block;
   block.element = element;
   block.group = group;
@@ -90,10 +90,10 @@ FirstOrder::Block FirstOrder::block_of(int element, int group) const {
 
 void FirstOrder::find_pattern() {
   std::vector<std::set<int64_t>> columns(static_cast<size_t>(size()));
-  const auto column = [&](int j) -> std::set<int64_t>& { return columns[static_cast<size_t>(j)]; };
+  const auto column = [&](int j) -> std::set<int64_t>& { return columns[j]; };
   for (int j = 0; j < size(); ++j) column(j).insert(j);
   for (int k = 0; k < modes(); ++k) {
-    const int v = v_at_[static_cast<size_t>(k)];
+    const int v = v_at_[k];
     if (v < 0) continue;
     column(v).insert(k);
     column(k).insert(v);
@@ -102,7 +102,7 @@ void FirstOrder::find_pattern() {
     for (const int j : block.modes)
       for (const int i : block.modes) {
         column(j).insert(row_of(i));
-        if (v_at_[static_cast<size_t>(j)] >= 0) column(row_of(j)).insert(row_of(i));
+        if (v_at_[j] >= 0) column(row_of(j)).insert(row_of(i));
       }
   for (const auto& rows : columns) {
     starts_.push_back(static_cast<int64_t>(rows_.size()));
@@ -110,13 +110,13 @@ void FirstOrder::find_pattern() {
   }
   starts_.push_back(static_cast<int64_t>(rows_.size()));
   const auto position = [&](int i, int j) {
-    const auto begin = rows_.begin() + starts_[static_cast<size_t>(j)],
+    const auto begin = rows_.begin() + starts_[j],
                end = rows_.begin() + starts_[static_cast<size_t>(j) + 1];
     return std::lower_bound(begin, end, i) - rows_.begin();
   };
   for (int j = 0; j < size(); ++j) diagonal_.push_back(position(j, j));
   for (int k = 0; k < modes(); ++k) {
-    const int v = v_at_[static_cast<size_t>(k)];
+    const int v = v_at_[k];
     eta_of_v_.push_back(v < 0 ? -1 : position(k, v));
     omega_at_.push_back(v < 0 ? -1 : position(v, k));
     damping_at_.push_back(v < 0 ? -1 : position(v, v));
@@ -124,7 +124,7 @@ void FirstOrder::find_pattern() {
   for (Block& block : blocks_)
     for (const int j : block.modes)
       for (const int i : block.modes) {
-        const int v = v_at_[static_cast<size_t>(j)];
+        const int v = v_at_[j];
         block.at_eta.push_back(position(row_of(i), j));
         block.at_v.push_back(v < 0 ? -1 : position(row_of(i), v));
       }
@@ -134,21 +134,21 @@ VectorXd FirstOrder::state(const VectorXd& eta, const VectorXd& v) const {
   VectorXd x(size());
   x.head(modes()) = eta;
   for (int k = 0; k < modes(); ++k)
-    if (v_at_[static_cast<size_t>(k)] >= 0) x(v_at_[static_cast<size_t>(k)]) = v(k);
+    if (v_at_[k] >= 0) x(v_at_[k]) = v(k);
   return x;
 }
 
 VectorXd FirstOrder::velocities(const VectorXd& x) const {
   VectorXd v = VectorXd::Zero(modes());
   for (int k = 0; k < modes(); ++k)
-    if (v_at_[static_cast<size_t>(k)] >= 0) v(k) = x(v_at_[static_cast<size_t>(k)]);
+    if (v_at_[k] >= 0) v(k) = x(v_at_[k]);
   return v;
 }
 
 void FirstOrder::set_state(const double* x) {
   eta_ = Eigen::Map<const VectorXd>(x, modes());
   for (int k = 0; k < modes(); ++k)
-    if (v_at_[static_cast<size_t>(k)] >= 0) v_(k) = x[v_at_[static_cast<size_t>(k)]];
+    if (v_at_[k] >= 0) v_(k) = x[v_at_[k]];
   system_->interface(eta_, y_);
   system_->interface(v_, v_y_);
 }
@@ -160,7 +160,7 @@ void FirstOrder::evaluate(double time, const double* x, double* g) {
   system_->add_interface_force(f_, F_);
   const auto &omega_squared = system_->omega_squared(), &damping = system_->damping();
   for (int k = 0; k < modes(); ++k) {
-    const int v = v_at_[static_cast<size_t>(k)];
+    const int v = v_at_[k];
     if (v < 0) {
       g[k] = F_(k);
     } else {
@@ -174,7 +174,7 @@ void FirstOrder::evaluate(double time, const double* x, double* g) {
 const MatrixXd* FirstOrder::tangent_of(const Block& block) const {
   const dynamics::Response& response = system_->response(block.element);
   if (!system_->has_groups(block.element)) return &response.tangent;
-  const dynamics::TangentBlock& own = response.blocks[static_cast<size_t>(block.group)];
+  const dynamics::TangentBlock& own = response.blocks[block.group];
   return own.active ? &own.values : nullptr;
 }
 
@@ -254,7 +254,7 @@ int FirstOrder::side(int event, double time, const double* x) {
 
 int FirstOrder::pass_event(int event, double time, double* x) {
   set_state(x);
-  const EventFunction& which = events_[static_cast<size_t>(event)];
+  const EventFunction& which = events_[event];
   ForceElement& element = system_->element(which.element);
   const auto& at = element.coordinates();
   VectorXd impulse = VectorXd::Zero(static_cast<Index>(at.size()));

@@ -117,7 +117,7 @@ VectorXd limits(const BenchScene& scene, const FirstOrder& system, double tolera
       Eigen::Index state = 0;
       const double reach =
           bodies.P(b).row(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff(&state);
-      if (bodies.bodies()[static_cast<size_t>(b)].is_state(static_cast<int>(state)))
+      if (bodies.bodies()[b].is_state(static_cast<int>(state)))
         eta(bodies.mode_offset(b) + state) =
             1.0 / (reach * weights.displacement(bodies.rows(b)[i]));
     }

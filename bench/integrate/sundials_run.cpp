@@ -98,8 +98,7 @@ struct SundialsRun::Impl {
     double* entries = values(J);
     system.jacobian(time, N_VGetArrayPointer(at), entries);
     for (size_t i = 0; i < system.rows().size(); ++i) entries[i] = -entries[i];
-    for (int i = 0; i < system.size(); ++i)
-      entries[system.diagonal()[static_cast<size_t>(i)]] += c * system.D()(i);
+    for (int i = 0; i < system.size(); ++i) entries[system.diagonal()[i]] += c * system.D()(i);
   }
 
   static int cvode_rates(double t, N_Vector at, N_Vector result, void* data) {
@@ -154,9 +153,9 @@ struct SundialsRun::Impl {
         check(CVodeRootInit(memory, system.events(), cvode_roots), "CVodeRootInit");
     }
     // Contacts may begin and end: 0, both directions.
-    sides.resize(static_cast<size_t>(system.events()), 0);
+    sides.resize(system.events(), 0);
     for (int e = 0; e < system.own_events(); ++e)
-      sides[static_cast<size_t>(e)] = -system.side(e, time, N_VGetArrayPointer(x));
+      sides[e] = -system.side(e, time, N_VGetArrayPointer(x));
     look_for_changes();
   }
 

@@ -46,7 +46,7 @@ PartName& PartName::operator=(PartName&& other) noexcept {
 }
 
 PartName::~PartName() {
-  if (slot_ >= 0) std::free(names[static_cast<size_t>(slot_)].exchange(nullptr));
+  if (slot_ >= 0) std::free(names[slot_].exchange(nullptr));
 }
 
 void remove_parts_on_signals() {

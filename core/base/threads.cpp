@@ -103,7 +103,7 @@ void parallel_pieces(int64_t n, const std::function<void(int64_t, int64_t)>& bod
     try {
       body(n * piece / pieces, n * (piece + 1) / pieces);
     } catch (...) {
-      failures[static_cast<size_t>(piece)] = std::current_exception();
+      failures[piece] = std::current_exception();
     }
   });
   for (const auto& failure : failures) {
@@ -121,7 +121,7 @@ void parallel_tasks(int count, const std::function<void(int)>& task) {
     try {
       task(k);
     } catch (...) {
-      failures[static_cast<size_t>(k)] = std::current_exception();
+      failures[k] = std::current_exception();
     }
   };
   static tbb::task_arena arena(thread_count());

@@ -43,7 +43,7 @@ void fill_indices(const NodePattern& pattern, MassForm form, NodalMatrices& out)
   int32_t* m_outer = out.M.outerIndexPtr();
   parallel_pieces(pattern.nodes(), [&](int64_t begin, int64_t end) {
     for (int64_t j = begin; j < end; ++j) {
-      const auto first = pattern.rows.begin() + pattern.start[static_cast<size_t>(j)];
+      const auto first = pattern.rows.begin() + pattern.start[j];
       const auto last = pattern.rows.begin() + pattern.start[static_cast<size_t>(j) + 1];
       for (int d = 0; d < 3; ++d) {
         const int64_t k_at = stiffness_column(pattern, j, d);
@@ -121,17 +121,17 @@ void require_positive(const mesh::Mesh& mesh, const mesh::CellBlock& block, Eige
   throw InputError(fmt::format(
       "mesh '{}': region {}: cell {} at ({:.6g}, {:.6g}, {:.6g}) m: found det J = {:.3g}, "
       "expected > 0 (inverted cell)",
-      mesh.name, mesh.regions[static_cast<size_t>(block.region)], mesh::cell_label(block, cell),
-      at(0), at(1), at(2), jacobian));
+      mesh.name, mesh.regions[block.region], mesh::cell_label(block, cell), at(0), at(1), at(2),
+      jacobian));
 }
 
 bool in_one_body(const std::vector<int32_t>& rigid_of_node, const mesh::CellBlock& block,
                  Eigen::Index cell) {
   if (rigid_of_node.empty()) return false;
-  const int32_t body = rigid_of_node[static_cast<size_t>(block.nodes(cell, 0))];
+  const int32_t body = rigid_of_node[block.nodes(cell, 0)];
   if (body < 0) return false;
   for (const int32_t node : block.nodes.row(cell))
-    if (rigid_of_node[static_cast<size_t>(node)] != body) return false;
+    if (rigid_of_node[node] != body) return false;
   return true;
 }
 
@@ -152,12 +152,12 @@ NodalMatrices assemble(const mesh::Mesh& mesh, const std::vector<Material>& mate
   double done = 0.0;
   std::vector<ElementMatrices> chunk(kChunk);
   for (const mesh::CellBlock& block : mesh.cells) {
-    const Material& material = materials.at(static_cast<size_t>(block.region));
+    const Material& material = materials.at(block.region);
     for (Eigen::Index first = 0; first < block.nodes.rows(); first += kChunk) {
       const Eigen::Index count = std::min(kChunk, block.nodes.rows() - first);
       parallel_pieces(count, [&](int64_t begin, int64_t end) {
         for (int64_t c = begin; c < end; ++c) {
-          ElementMatrices& cell = chunk[static_cast<size_t>(c)];
+          ElementMatrices& cell = chunk[c];
           // From the cell's first node: far from the origin differences of positions would lose
           // digits in each derivative (hard case F2).
           const mesh::CellNodes x = mesh::cell_nodes(mesh, block, first + c);
@@ -170,7 +170,7 @@ NodalMatrices assemble(const mesh::Mesh& mesh, const std::vector<Material>& mate
       parallel_pieces(owners, [&](int64_t begin, int64_t end) {
         for (int64_t owner = begin; owner < end; ++owner)
           for (Eigen::Index c = 0; c < count; ++c)
-            scatter.add(chunk[static_cast<size_t>(c)], block.nodes.row(first + c), owner, owners);
+            scatter.add(chunk[c], block.nodes.row(first + c), owner, owners);
       });
       progress.update(done += static_cast<double>(count));
     }

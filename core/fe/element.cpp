@@ -29,7 +29,7 @@ double integrate_stiffness(const CellModes& modes, const CellNodes& x, const Mat
   ModeGradient g;
   Elasticity C = material.elasticity_at(x.row(0));
   for (Eigen::Index q = 0; q < n_points; ++q) {
-    const CellPoint& point = points[static_cast<size_t>(q)];
+    const CellPoint& point = points[q];
     const double det = modes.at(point, g);
     smallest = std::min(smallest, det);
     if (!(det > 0.0)) return smallest;
@@ -77,14 +77,14 @@ const Eigen::MatrixXd& reference_mass(CellType type) {
     std::array<Eigen::MatrixXd, 2> out;
     for (const CellType tet : {CellType::kTet4, CellType::kTet10}) {
       const Eigen::Index n = mesh::traits(tet).nodes;
-      Eigen::MatrixXd& sum = out[static_cast<size_t>(tet)];
+      Eigen::MatrixXd& sum = out[tet];
       sum = Eigen::MatrixXd::Zero(n, n);
       for (const CellPoint& point : mass_points(tet, true))
         sum += point.weight * point.shape.value * point.shape.value.transpose();
     }
     return out;
   }();
-  return all[static_cast<size_t>(type)];
+  return all[type];
 }
 
 void compute_mass(CellType type, const CellNodes& x, const Material& material, bool straight,
@@ -110,7 +110,7 @@ void compute_mass(CellType type, const CellNodes& x, const Material& material, b
 bool is_straight(CellType type, const CellNodes& x) {
   const mesh::CellTraits& cell = mesh::traits(type);
   for (int e = 0; e < cell.nodes - cell.corners; ++e) {
-    const auto [i, j] = cell.edges[static_cast<size_t>(e)];
+    const auto [i, j] = cell.edges[e];
     const double sag = (x.row(cell.corners + e) - 0.5 * (x.row(i) + x.row(j))).norm();
     if (sag > kStraightTolerance * (x.row(i) - x.row(j)).norm()) return false;
   }

@@ -21,9 +21,7 @@ struct FeCells {
   std::vector<int32_t> node_ids;        // node numbers of an imported mesh; empty: index + 1
 
   /// User-visible node number.
-  int32_t label(int32_t node) const {
-    return node_ids.empty() ? node + 1 : node_ids[static_cast<size_t>(node)];
-  }
+  int32_t label(int32_t node) const { return node_ids.empty() ? node + 1 : node_ids[node]; }
 };
 
 void write_cells(H5File& file, const FeCells& cells);

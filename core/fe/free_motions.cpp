@@ -55,8 +55,7 @@ MatrixXd forceless(const MatrixXd& force) {
 /// The DoFs of each body, ascending.
 std::vector<std::vector<Index>> rows_of(const std::vector<int>& body, int bodies) {
   std::vector<std::vector<Index>> rows(static_cast<size_t>(bodies));
-  for (size_t i = 0; i < body.size(); ++i)
-    rows[static_cast<size_t>(body[i])].push_back(static_cast<Index>(i));
+  for (size_t i = 0; i < body.size(); ++i) rows[body[i]].push_back(static_cast<Index>(i));
   return rows;
 }
 

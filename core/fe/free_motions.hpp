@@ -57,7 +57,7 @@ class DofUnion {
 
  private:
   int32_t root(int32_t i);
-  int32_t& above(int32_t i) { return above_[static_cast<size_t>(i)]; }
+  int32_t& above(int32_t i) { return above_[i]; }
   std::vector<int32_t> above_;
 };
 

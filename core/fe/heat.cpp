@@ -37,7 +37,7 @@ void add_cell(const NodePattern& pattern, const Eigen::MatrixXd& cell, const aut
               double* values) {
   for (Eigen::Index b = 0; b < nodes.size(); ++b) {
     const int32_t column = nodes(b);
-    double* entries = values + pattern.start[static_cast<size_t>(column)];
+    double* entries = values + pattern.start[column];
     for (Eigen::Index a = 0; a < nodes.size(); ++a)
       if (nodes(a) >= column) entries[pattern.position(column, nodes(a))] += cell(a, b);
   }
@@ -75,17 +75,17 @@ SparseMatrix conduction(const mesh::Mesh& mesh, const std::vector<Material>& mat
   std::fill_n(K.valuePtr(), pattern.rows.size(), 0.0);
   std::vector<Eigen::MatrixXd> chunk(kHeatChunk);
   for (const mesh::CellBlock& block : mesh.cells) {
-    const Material& material = materials.at(static_cast<size_t>(block.region));
+    const Material& material = materials.at(block.region);
     for (Eigen::Index first = 0; first < block.nodes.rows(); first += kHeatChunk) {
       const Eigen::Index count = std::min(kHeatChunk, block.nodes.rows() - first);
       parallel_pieces(count, [&](int64_t begin, int64_t end) {
         for (int64_t c = begin; c < end; ++c)
-          chunk[static_cast<size_t>(c)] =
+          chunk[c] =
               cell_conduction(block.type, mesh::cell_nodes(mesh, block, first + c), material);
       });
       // One thread adds in the order of the cells: the sum does not depend on the thread count.
       for (Eigen::Index c = 0; c < count; ++c)
-        add_cell(pattern, chunk[static_cast<size_t>(c)], block.nodes.row(first + c), K.valuePtr());
+        add_cell(pattern, chunk[c], block.nodes.row(first + c), K.valuePtr());
     }
   }
   return K;
@@ -94,7 +94,7 @@ SparseMatrix conduction(const mesh::Mesh& mesh, const std::vector<Material>& mat
 Eigen::VectorXd volume_heat(const mesh::Mesh& mesh, const std::vector<double>& source) {
   Eigen::VectorXd q = Eigen::VectorXd::Zero(mesh.nodes.rows());
   for (const mesh::CellBlock& block : mesh.cells) {
-    const double s = source.at(static_cast<size_t>(block.region));
+    const double s = source.at(block.region);
     if (s == 0.0) continue;
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       const mesh::CellNodes x = mesh::cell_nodes(mesh, block, c);

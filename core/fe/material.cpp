@@ -39,7 +39,7 @@ Elasticity orthotropic(const Config& table, const MaterialTable& m) {
   require_count(table, "nu", nu, 3);
   require_count(table, "G", G, 3);
   Elasticity compliance = Elasticity::Zero();
-  for (int i = 0; i < 3; ++i) compliance(i, i) = 1.0 / E[static_cast<size_t>(i)];
+  for (int i = 0; i < 3; ++i) compliance(i, i) = 1.0 / E[i];
   compliance(0, 1) = compliance(1, 0) = -nu[0] / E[0];
   compliance(0, 2) = compliance(2, 0) = -nu[1] / E[0];
   compliance(1, 2) = compliance(2, 1) = -nu[2] / E[1];

@@ -29,15 +29,14 @@ CellsOfNode cells_of_nodes(const mesh::Mesh& mesh) {
     for (Eigen::Index i = 0; i < block.nodes.size(); ++i)
       ++of.start[static_cast<size_t>(block.nodes.data()[i]) + 1];
   for (size_t i = 1; i < of.start.size(); ++i) of.start[i] += of.start[i - 1];
-  of.entries.resize(static_cast<size_t>(of.start.back()));
+  of.entries.resize(of.start.back());
   std::vector<int64_t> next(of.start.begin(), of.start.end() - 1);
   for (size_t b = 0; b < mesh.cells.size(); ++b) {
     const IndexMatrix& cells = mesh.cells[b].nodes;
     for (Eigen::Index c = 0; c < cells.rows(); ++c)
       for (Eigen::Index a = 0; a < cells.cols(); ++a) {
-        int64_t& slot = next[static_cast<size_t>(cells(c, a))];
-        of.entries[static_cast<size_t>(slot++)] = {static_cast<int32_t>(b),
-                                                   static_cast<int32_t>(c)};
+        int64_t& slot = next[cells(c, a)];
+        of.entries[slot++] = {static_cast<int32_t>(b), static_cast<int32_t>(c)};
       }
   }
   return of;
@@ -49,8 +48,8 @@ void collect_rows(const mesh::Mesh& mesh, const CellsOfNode& of, int32_t node,
   rows.clear();
   const auto j = static_cast<size_t>(node);
   for (int64_t k = of.start[j]; k < of.start[j + 1]; ++k) {
-    const CellsOfNode::Entry entry = of.entries[static_cast<size_t>(k)];
-    const auto cell = mesh.cells[static_cast<size_t>(entry.block)].nodes.row(entry.cell);
+    const CellsOfNode::Entry entry = of.entries[k];
+    const auto cell = mesh.cells[entry.block].nodes.row(entry.cell);
     for (const int32_t neighbour : cell)
       if (neighbour >= node) rows.push_back(neighbour);
   }
@@ -61,7 +60,7 @@ void collect_rows(const mesh::Mesh& mesh, const CellsOfNode& of, int32_t node,
 }  // namespace
 
 int64_t NodePattern::position(int32_t column, int32_t node) const {
-  const auto first = rows.begin() + start[static_cast<size_t>(column)];
+  const auto first = rows.begin() + start[column];
   const auto last = rows.begin() + start[static_cast<size_t>(column) + 1];
   return std::lower_bound(first, last, node) - first;
 }
@@ -102,7 +101,7 @@ NodePattern node_pattern(const mesh::Mesh& mesh) {
     if (fill) break;
     for (size_t j = 1; j < pattern.start.size(); ++j) pattern.start[j] += pattern.start[j - 1];
     predict_size(n, pattern.start.back() - n);
-    pattern.rows.resize(static_cast<size_t>(pattern.start.back()));
+    pattern.rows.resize(pattern.start.back());
   }
   return pattern;
 }

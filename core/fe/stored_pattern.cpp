@@ -26,9 +26,8 @@ StoredColumns read_columns(const std::filesystem::path& path, const std::string&
   out.rows = read_part_of_ints(path, group + "/indices", indptr.front(), out.starts.back());
   for (int64_t c = 0; c < count; ++c) {
     int64_t above = first + c - 1;
-    for (int64_t k = out.starts[static_cast<size_t>(c)]; k < out.starts[static_cast<size_t>(c) + 1];
-         ++k) {
-      const int32_t row = out.rows[static_cast<size_t>(k)];
+    for (int64_t k = out.starts[c]; k < out.starts[static_cast<size_t>(c) + 1]; ++k) {
+      const int32_t row = out.rows[k];
       if (row <= above || row >= n)
         refuse(fmt::format("column {} has row index {}, expected ascending within {} to {}",
                            first + c, row, first + c, n - 1));
@@ -45,14 +44,11 @@ StiffnessPattern read_stiffness_pattern(const std::filesystem::path& path,
   const StoredColumns K = read_columns(path, "K", n, 0, n);
   // Row in the interior, or -1 - column of the boundary.
   std::vector<int32_t> place(static_cast<size_t>(n), 0);
-  for (size_t k = 0; k < interior.size(); ++k)
-    place[static_cast<size_t>(interior[k])] = static_cast<int32_t>(k);
-  for (size_t k = 0; k < boundary.size(); ++k)
-    place[static_cast<size_t>(boundary[k])] = -1 - static_cast<int32_t>(k);
+  for (size_t k = 0; k < interior.size(); ++k) place[interior[k]] = static_cast<int32_t>(k);
+  for (size_t k = 0; k < boundary.size(); ++k) place[boundary[k]] = -1 - static_cast<int32_t>(k);
   const auto each = [&](int64_t column, const auto& use) {
-    for (int64_t k = K.starts[static_cast<size_t>(column)];
-         k < K.starts[static_cast<size_t>(column) + 1]; ++k)
-      use(place[static_cast<size_t>(K.rows[static_cast<size_t>(k)])]);
+    for (int64_t k = K.starts[column]; k < K.starts[static_cast<size_t>(column) + 1]; ++k)
+      use(place[K.rows[k]]);
   };
   StiffnessPattern out;
   const auto n_i = static_cast<Index>(interior.size());
@@ -60,7 +56,7 @@ StiffnessPattern read_stiffness_pattern(const std::filesystem::path& path,
   int32_t* const starts = out.ii.outerIndexPtr();
   for (Index k = 0; k < n_i; ++k) {
     int32_t count = 0;
-    each(interior[static_cast<size_t>(k)], [&](int32_t row) { count += row >= 0 ? 1 : 0; });
+    each(interior[k], [&](int32_t row) { count += row >= 0 ? 1 : 0; });
     starts[k + 1] = starts[k] + count;
   }
   out.ii.resizeNonZeros(starts[n_i]);
@@ -72,7 +68,7 @@ StiffnessPattern read_stiffness_pattern(const std::filesystem::path& path,
   std::fill_n(out.ii.valuePtr(), out.ii.nonZeros(), 0.0);
   std::vector<Eigen::Triplet<double>> coupling;
   for (int64_t column = 0; column < n; ++column) {
-    const int32_t here = place[static_cast<size_t>(column)];
+    const int32_t here = place[column];
     each(column, [&](int32_t row) {
       if ((here < 0) != (row < 0))
         coupling.emplace_back(std::max(here, row), -1 - std::min(here, row), 0.0);

@@ -58,7 +58,7 @@ void add_block(const CellBlock& block, const RowMatrix& corner_values, Sums& sum
       if (a < cell.corners) {
         sums.stress.row(node) += corner.row(a);
       } else {
-        const auto [i, j] = cell.edges[static_cast<size_t>(a - cell.corners)];
+        const auto [i, j] = cell.edges[a - cell.corners];
         sums.stress.row(node) += 0.5 * (corner.row(i) + corner.row(j));
       }
     }
@@ -73,7 +73,7 @@ RegionStress mean_of(const Sums& sums) {
   out.stress.resize(n, 6);
   out.von_mises.resize(n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const int32_t node = out.nodes[static_cast<size_t>(k)];
+    const int32_t node = out.nodes[k];
     out.stress.row(k) = sums.stress.row(node) / sums.cells(node);
     out.von_mises(k) = von_mises(out.stress.row(k).transpose());
   }
@@ -95,7 +95,7 @@ StressRows point_stress(CellType type, const CellNodes& x, const Material& mater
   StressRows out(static_cast<Eigen::Index>(points.size()), 6);
   ModeGradient gradient;
   for (Eigen::Index q = 0; q < out.rows(); ++q) {
-    const CellPoint& point = points[static_cast<size_t>(q)];
+    const CellPoint& point = points[q];
     const Eigen::Vector3d position = x.transpose() * point.shape.value;
     if (const double det = modes.at(point, gradient); !(det > 0.0))
       throw InputError(fmt::format(

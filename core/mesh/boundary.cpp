@@ -20,15 +20,14 @@ namespace {
 
 // "cell 12 (tet10)"
 std::string name_of(const Mesh& mesh, const FaceRef& face) {
-  const CellBlock& block = mesh.cells[static_cast<size_t>(face.block)];
+  const CellBlock& block = mesh.cells[face.block];
   return fmt::format("cell {} ({})", cell_label(block, face.cell), traits(block.type).name);
 }
 
 std::vector<int32_t> corner_labels(const Mesh& mesh, const FaceKey& key) {
   std::vector<int32_t> labels;
   for (const int32_t node : key)
-    if (node >= 0)
-      labels.push_back(mesh.node_ids.empty() ? node : mesh.node_ids[static_cast<size_t>(node)]);
+    if (node >= 0) labels.push_back(mesh.node_ids.empty() ? node : mesh.node_ids[node]);
   return labels;
 }
 
@@ -43,7 +42,7 @@ bool linear_along_edges(const Mesh& mesh, const BoundaryFace& face) {
 }
 
 bool is_linear(const Mesh& mesh, const FaceRef& face) {
-  return traits(mesh.cells[static_cast<size_t>(face.block)].type).order == 1;
+  return traits(mesh.cells[face.block].type).order == 1;
 }
 
 void require_same_nodes(const Mesh& mesh, const FaceRef& a, const FaceRef& b) {
@@ -67,8 +66,7 @@ using FaceNodes = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMaxFaceNodes, 3>;
 template <class Ids>
 FaceNodes face_nodes(const Mesh& mesh, const Ids& ids) {
   FaceNodes x(static_cast<Eigen::Index>(ids.size()), 3);
-  for (Eigen::Index i = 0; i < x.rows(); ++i)
-    x.row(i) = mesh.nodes.row(ids[static_cast<size_t>(i)]);
+  for (Eigen::Index i = 0; i < x.rows(); ++i) x.row(i) = mesh.nodes.row(ids[i]);
   return x;
 }
 
@@ -109,7 +107,7 @@ void add_faces(const Mesh& mesh, const FaceBlock& block, const Eigen::Vector3d& 
 // J is positive it points out of the cell however curved that is; the direction from the mean of
 // the corners need not.
 Eigen::Vector3d outward_direction(const Mesh& mesh, const BoundaryFace& face) {
-  const CellBlock& cells = mesh.cells[static_cast<size_t>(face.block)];
+  const CellBlock& cells = mesh.cells[face.block];
   const auto reference = reference_nodes(cells.type);
   const auto cell = cells.nodes.row(face.cell);
   const int corners = traits(face.type).corners;
@@ -140,7 +138,7 @@ namespace {
 /// Two cells of the same corners share all their faces, and hide them from the boundary.
 void require_distinct(const Mesh& mesh, const FaceRef& a, const FaceRef& b) {
   const auto corners = [&](const FaceRef& face) {
-    const CellBlock& block = mesh.cells[static_cast<size_t>(face.block)];
+    const CellBlock& block = mesh.cells[face.block];
     const auto row = block.nodes.row(face.cell);
     std::array<int32_t, 8> ids;
     ids.fill(-1);

@@ -80,8 +80,7 @@ constexpr std::array<int, Corners + E> permutation(const std::array<Edge, E>& ou
   std::array<int, Corners + E> p{};
   for (size_t i = 0; i < Corners; ++i) p[i] = corners[i];
   for (size_t e = 0; e < E; ++e) {
-    const Edge edge = {corners[static_cast<size_t>(theirs[e][0])],
-                       corners[static_cast<size_t>(theirs[e][1])]};
+    const Edge edge = {corners[theirs[e][0]], corners[theirs[e][1]]};
     p[Corners + e] = middle_of(ours, edge, Corners);
   }
   return p;
@@ -189,8 +188,8 @@ Type type_named(const Table& table, std::string_view name, const char* what,
 
 }  // namespace
 
-const CellTraits& traits(CellType type) { return kCells[static_cast<size_t>(type)]; }
-const FaceTraits& traits(FaceType type) { return kFaces[static_cast<size_t>(type)]; }
+const CellTraits& traits(CellType type) { return kCells[type]; }
+const FaceTraits& traits(FaceType type) { return kFaces[type]; }
 
 CellType cell_type_named(std::string_view name, const std::string& where) {
   return type_named<CellType>(kCells, name, "cell", where);

@@ -31,7 +31,7 @@ void sort_by_key(std::vector<FaceRef>& faces) {
   for (const FaceRef& face : faces) ++end[lowest(face) + 1];
   for (size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
   std::vector<FaceRef> sorted(faces.size());
-  for (const FaceRef& face : faces) sorted[static_cast<size_t>(end[lowest(face)]++)] = face;
+  for (const FaceRef& face : faces) sorted[end[lowest(face)]++] = face;
   int64_t begin = 0;
   for (size_t i = 0; i + 1 < end.size(); begin = end[i], ++i)
     std::sort(sorted.begin() + begin, sorted.begin() + end[i], before);
@@ -41,8 +41,8 @@ void sort_by_key(std::vector<FaceRef>& faces) {
 }  // namespace
 
 BoundaryFace face_at(const Mesh& mesh, const FaceRef& ref) {
-  const CellBlock& block = mesh.cells[static_cast<size_t>(ref.block)];
-  const CellFace& local = traits(block.type).faces[static_cast<size_t>(ref.face)];
+  const CellBlock& block = mesh.cells[ref.block];
+  const CellFace& local = traits(block.type).faces[ref.face];
   BoundaryFace face{local.type, {}, ref.block, ref.cell};
   face.ids.fill(-1);
   for (size_t i = 0; i < static_cast<size_t>(traits(local.type).nodes); ++i)
@@ -55,12 +55,12 @@ std::vector<FaceRef> all_faces(const Mesh& mesh) {
   int64_t count = 0;
   for (const CellBlock& block : mesh.cells)
     count += block.nodes.rows() * static_cast<int64_t>(traits(block.type).faces.size());
-  faces.reserve(static_cast<size_t>(count));
+  faces.reserve(count);
   for (size_t b = 0; b < mesh.cells.size(); ++b) {
     const auto n_faces = static_cast<int32_t>(traits(mesh.cells[b].type).faces.size());
     for (Eigen::Index c = 0; c < mesh.cells[b].nodes.rows(); ++c)
       for (int32_t f = 0; f < n_faces; ++f) {
-        const CellFace& local = traits(mesh.cells[b].type).faces[static_cast<size_t>(f)];
+        const CellFace& local = traits(mesh.cells[b].type).faces[f];
         std::array<int32_t, 4> corners{};
         for (size_t i = 0; i < static_cast<size_t>(traits(local.type).corners); ++i)
           corners[i] = mesh.cells[b].nodes(c, local.nodes[i]);

@@ -72,8 +72,7 @@ Sampling make_sampling(CellType type) {
     for (double b : at[1])
       for (double c : at[2]) {
         const CellShape shape = cell_shape(type, from_cube(type, {a, b, c}));
-        for (int k = 0; k < 3; ++k)
-          s.gradients[static_cast<size_t>(k)].row(point) = shape.gradient.col(k).transpose();
+        for (int k = 0; k < 3; ++k) s.gradients[k].row(point) = shape.gradient.col(k).transpose();
         ++point;
       }
   return s;
@@ -82,18 +81,17 @@ Sampling make_sampling(CellType type) {
 const Sampling& sampling_of(CellType type) {
   static const std::array<Sampling, kCellTypes> all = [] {
     std::array<Sampling, kCellTypes> out;
-    for (int t = 2; t < kCellTypes; ++t)
-      out[static_cast<size_t>(t)] = make_sampling(static_cast<CellType>(t));
+    for (int t = 2; t < kCellTypes; ++t) out[t] = make_sampling(static_cast<CellType>(t));
     return out;
   }();
-  return all[static_cast<size_t>(type)];
+  return all[type];
 }
 
 // Applies `matrix` along one axis.
 void transform_axis(CubePolynomial& p, int axis, const Eigen::MatrixXd& matrix) {
-  const int n = p.degree[static_cast<size_t>(axis)] + 1;
+  const int n = p.degree[axis] + 1;
   int stride = 1;
-  for (int later = axis + 1; later < 3; ++later) stride *= p.degree[static_cast<size_t>(later)] + 1;
+  for (int later = axis + 1; later < 3; ++later) stride *= p.degree[later] + 1;
   const Eigen::Index outer = p.coefficients.size() / (n * stride);
   const CubeValues old = p.coefficients;
   for (Eigen::Index o = 0; o < outer; ++o)
@@ -140,8 +138,7 @@ CubePolynomial jacobian_polynomial(CellType type, const Eigen::Ref<const Eigen::
   };
   p.coefficients = a.col(0).cwiseProduct(minor(1, 2)) + a.col(1).cwiseProduct(minor(2, 0)) +
                    a.col(2).cwiseProduct(minor(0, 1));
-  for (int axis = 0; axis < 3; ++axis)
-    transform_axis(p, axis, s.bernstein[static_cast<size_t>(axis)]);
+  for (int axis = 0; axis < 3; ++axis) transform_axis(p, axis, s.bernstein[axis]);
   return p;
 }
 
@@ -157,7 +154,7 @@ double CubePolynomial::smallest_corner() const {
 // de Casteljau's construction at 1/2, as a matrix: row k of the lower half is the k-th row of
 // Pascal's triangle over 2^k; the upper half is its mirror image.
 CubePolynomial CubePolynomial::half(int axis, bool upper) const {
-  const int n = degree[static_cast<size_t>(axis)];
+  const int n = degree[axis];
   Eigen::MatrixXd cut = Eigen::MatrixXd::Zero(n + 1, n + 1);
   cut(0, 0) = 1.0;
   for (int k = 1; k <= n; ++k)
@@ -177,7 +174,7 @@ int CubePolynomial::steepest_axis() const {
       for (int j = 0; j <= degree[1]; ++j)
         for (int k = 0; k <= degree[2]; ++k) {
           const std::array<int, 3> here = {i, j, k};
-          if (here[static_cast<size_t>(axis)] == degree[static_cast<size_t>(axis)]) continue;
+          if (here[axis] == degree[axis]) continue;
           const int next = index(i + (axis == 0), j + (axis == 1), k + (axis == 2));
           jump = std::max(jump, std::abs(coefficients(next) - coefficients(index(i, j, k))));
         }

@@ -36,7 +36,7 @@ void check_cells(const Mesh& mesh, const std::string& where, std::vector<bool>& 
     }
     check_range(block.nodes, mesh.nodes.rows(), block_name);
     for (Eigen::Index i = 0; i < block.nodes.size(); ++i) {
-      used[static_cast<size_t>(block.nodes.data()[i])] = true;
+      used[block.nodes.data()[i]] = true;
     }
   }
 }
@@ -119,7 +119,7 @@ int64_t Surface::face_count() const {
 
 void SurfaceBuilder::add(FaceType type, std::span<const int32_t> face) {
   const auto nodes = face.first(static_cast<size_t>(traits(type).nodes));
-  std::vector<int32_t>& all = nodes_[static_cast<size_t>(type)];
+  std::vector<int32_t>& all = nodes_[type];
   all.insert(all.end(), nodes.begin(), nodes.end());
 }
 

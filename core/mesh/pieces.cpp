@@ -16,9 +16,9 @@ std::vector<int32_t> roots_of(const Mesh& mesh) {
   std::vector<int32_t> above(static_cast<size_t>(mesh.nodes.rows()));
   std::iota(above.begin(), above.end(), 0);
   const auto root = [&](int32_t node) {
-    while (above[static_cast<size_t>(node)] != node) {
-      int32_t& next = above[static_cast<size_t>(node)];
-      next = above[static_cast<size_t>(next)];
+    while (above[node] != node) {
+      int32_t& next = above[node];
+      next = above[next];
       node = next;
     }
     return node;
@@ -27,9 +27,9 @@ std::vector<int32_t> roots_of(const Mesh& mesh) {
   for (const CellBlock& block : mesh.cells)
     for (const auto& cell : block.nodes.rowwise())
       for (const int32_t node : cell) {
-        used[static_cast<size_t>(node)] = 1;
+        used[node] = 1;
         const int32_t a = root(cell[0]), b = root(node);
-        above[static_cast<size_t>(std::max(a, b))] = std::min(a, b);
+        above[std::max(a, b)] = std::min(a, b);
       }
   for (size_t node = 0; node < above.size(); ++node)
     above[node] = used[node] ? root(static_cast<int32_t>(node)) : -1;
@@ -49,10 +49,10 @@ int64_t count_coincident(const Mesh& mesh, const std::vector<int32_t>& roots) {
     const int32_t a = order[i];
     for (size_t k = i + 1; k < order.size() && along[order[k]] - along[a] <= 2.0 * near; ++k) {
       const int32_t b = order[k];
-      const int32_t of_a = roots[static_cast<size_t>(a)], of_b = roots[static_cast<size_t>(b)];
+      const int32_t of_a = roots[a], of_b = roots[b];
       if (of_a < 0 || of_b < 0 || of_a == of_b) continue;
       if (!((mesh.nodes.row(a) - mesh.nodes.row(b)).norm() <= near)) continue;
-      found[static_cast<size_t>(std::max(a, b))] = 1;
+      found[std::max(a, b)] = 1;
     }
   }
   return std::count(found.begin(), found.end(), 1);

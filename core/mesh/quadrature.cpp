@@ -210,14 +210,14 @@ const CellRule& tet_rule_64() {
 const CellRule& hex_rule(int n) {
   static const std::array<CellRule, 5> rules = {
       make_hex_rule(1), make_hex_rule(2), make_hex_rule(3), make_hex_rule(4), make_hex_rule(5)};
-  return rules.at(static_cast<size_t>(n - 1));
+  return rules.at(n - 1);
 }
 
 const CellRule& pyramid_rule(int n) {
   static const std::array<CellRule, 5> rules = {make_pyramid_rule(1), make_pyramid_rule(2),
                                                 make_pyramid_rule(3), make_pyramid_rule(4),
                                                 make_pyramid_rule(5)};
-  return rules.at(static_cast<size_t>(n - 1));
+  return rules.at(n - 1);
 }
 
 const CellRule& wedge_rule(int triangle, int n) {
@@ -230,7 +230,7 @@ const CellRule& wedge_rule(int triangle, int n) {
       along(make_triangle_rule(1)), along(make_triangle_rule(3)), along(make_triangle_rule(6)),
       along(make_conical_triangle_rule(5))};
   const size_t row = triangle == 1 ? 0 : triangle == 3 ? 1 : triangle == 6 ? 2 : 3;
-  return rules[row].at(static_cast<size_t>(n - 1));
+  return rules[row].at(n - 1);
 }
 
 const CellRule& fine_rule(CellType type) {

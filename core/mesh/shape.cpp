@@ -79,12 +79,12 @@ Shape simplex_shape(const Eigen::Matrix<double, Dim, 1>& xi, int order,
   const int n = order == 1 ? kCorners : kCorners + static_cast<int>(edges.size());
   Shape shape = sized<Shape>(n);
   for (int i = 0; i < kCorners; ++i) {
-    const F& l = L[static_cast<size_t>(i)];
+    const F& l = L[i];
     put<Dim>(shape, i, order == 1 ? l : l * (F(2.0) * l - 1.0));
   }
   for (int e = 0; kCorners + e < n; ++e) {
-    const auto [i, j] = edges[static_cast<size_t>(e)];
-    put<Dim>(shape, kCorners + e, F(4.0) * L[static_cast<size_t>(i)] * L[static_cast<size_t>(j)]);
+    const auto [i, j] = edges[e];
+    put<Dim>(shape, kCorners + e, F(4.0) * L[i] * L[j]);
   }
   return shape;
 }
@@ -106,17 +106,17 @@ Shape cube_shape(const Eigen::Matrix<double, Dim, 1>& xi, int order, int corners
   for (int i = 0; i < corners; ++i) {
     F product(1.0 / corners), sum(1.0 - Dim);
     for (int k = 0; k < Dim; ++k) {
-      const F along = F(corner[i][k]) * x[static_cast<size_t>(k)];
+      const F along = F(corner[i][k]) * x[k];
       product = product * (1.0 + along);
       sum = sum + along;
     }
     put<Dim>(shape, i, order == 1 ? product : product * sum);
   }
   for (int e = 0; corners + e < n; ++e) {
-    const auto [i, j] = edges[static_cast<size_t>(e)];
+    const auto [i, j] = edges[e];
     F product(2.0 / corners);
     for (int k = 0; k < Dim; ++k) {
-      const F& at = x[static_cast<size_t>(k)];
+      const F& at = x[k];
       product =
           product * (corner[i][k] == corner[j][k] ? 1.0 + F(corner[i][k]) * at : 1.0 - at * at);
     }
@@ -132,20 +132,18 @@ CellShape wedge_shape(const Eigen::Vector3d& xi, int order, std::span<const Edge
   const int n = order == 1 ? 6 : 15;
   CellShape shape = sized<CellShape>(n);
   for (int i = 0; i < 6; ++i) {
-    const F& l = L[static_cast<size_t>(i % 3)];
+    const F& l = L[i % 3];
     const F along = F(kWedgeCorner[i][2]) * z;
     put<3>(shape, i,
            order == 1 ? F(0.5) * l * (1.0 + along)
                       : F(0.5) * l * (1.0 + along) * (F(2.0) * l + along - 2.0));
   }
   for (int e = 0; 6 + e < n; ++e) {
-    const auto [i, j] = edges[static_cast<size_t>(e)];
-    const F& l = L[static_cast<size_t>(i % 3)];
+    const auto [i, j] = edges[e];
+    const F& l = L[i % 3];
     const bool upright = i % 3 == j % 3;
     const F along = F(kWedgeCorner[i][2]) * z;
-    put<3>(
-        shape, 6 + e,
-        upright ? l * (1.0 - z * z) : F(2.0) * l * L[static_cast<size_t>(j % 3)] * (1.0 + along));
+    put<3>(shape, 6 + e, upright ? l * (1.0 - z * z) : F(2.0) * l * L[j % 3] * (1.0 + along));
   }
   return shape;
 }
@@ -164,7 +162,7 @@ CellShape pyramid_shape(const Eigen::Vector3d& xi, int order, std::span<const Ed
   }
   put<3>(shape, 4, order == 1 ? z : z * (F(2.0) * z - 1.0));
   for (int e = 0; 5 + e < n; ++e) {
-    const auto [i, j] = edges[static_cast<size_t>(e)];
+    const auto [i, j] = edges[e];
     const F a = F(kPyramidCorner[i][0]) * x, b = F(kPyramidCorner[i][1]) * y;
     F f(0.0);
     if (j == 4)
@@ -225,7 +223,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 3> reference_nodes(CellType type) {
   Eigen::Matrix<double, Eigen::Dynamic, 3> x(cell.nodes, 3);
   for (int i = 0; i < cell.corners; ++i) x.row(i) << corner[i][0], corner[i][1], corner[i][2];
   for (int e = 0; cell.corners + e < cell.nodes; ++e) {
-    const auto [i, j] = cell.edges[static_cast<size_t>(e)];
+    const auto [i, j] = cell.edges[e];
     x.row(cell.corners + e) = 0.5 * (x.row(i) + x.row(j));
   }
   return x;

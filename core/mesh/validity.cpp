@@ -199,11 +199,11 @@ double volume_of(CellType type, const CellNodes& x) {
     for (int t = 2; t < kCellTypes; ++t) {
       const auto cell = static_cast<CellType>(t);
       for (const auto& point : volume_rule(cell).points.rowwise())
-        out[static_cast<size_t>(t)].push_back(cell_shape(cell, point.transpose()));
+        out[t].push_back(cell_shape(cell, point.transpose()));
     }
     return out;
   }();
-  const std::vector<CellShape>& at = gradients[static_cast<size_t>(type)];
+  const std::vector<CellShape>& at = gradients[type];
   double volume = 0.0;
   for (size_t q = 0; q < at.size(); ++q) {
     const Eigen::Matrix3d J = x.transpose() * at[q].gradient;
@@ -223,7 +223,7 @@ Tet10Nodes tet_nodes(const Mesh& mesh, const CellBlock& block, Eigen::Index cell
 }
 
 int32_t cell_label(const CellBlock& block, Eigen::Index cell) {
-  return block.ids.empty() ? static_cast<int32_t>(cell) : block.ids[static_cast<size_t>(cell)];
+  return block.ids.empty() ? static_cast<int32_t>(cell) : block.ids[cell];
 }
 
 ValidityReport check_validity(const Mesh& mesh) {

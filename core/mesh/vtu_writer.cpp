@@ -55,7 +55,7 @@ class RawArrays {
 // VTK's triangle, quadratic triangle, quadrilateral, quadratic quadrilateral.
 uint8_t vtk_type(FaceType type) {
   constexpr std::array<uint8_t, kFaceTypes> kTypes = {5, 22, 9, 23};
-  return kTypes[static_cast<size_t>(type)];
+  return kTypes[type];
 }
 
 int64_t count_drawn(const Mesh& mesh) {
@@ -89,8 +89,7 @@ std::string cell_data(const Mesh& mesh, RawArrays& raw) {
   for (const CellBlock& block : mesh.cells)
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       regions.push_back(block.region);
-      ids.push_back(block.ids.empty() ? static_cast<int32_t>(ids.size()) + 1
-                                      : block.ids[static_cast<size_t>(c)]);
+      ids.push_back(block.ids.empty() ? static_cast<int32_t>(ids.size()) + 1 : block.ids[c]);
     }
   if (mesh.cells.empty()) return "";
   return raw.add("id", ids) + raw.add("region", regions);
@@ -103,7 +102,7 @@ std::string point_data(const Mesh& mesh, RawArrays& raw) {
   std::string out = raw.add("id", ids);
   for (const auto& [name, nodes] : mesh.node_sets) {
     std::vector<uint8_t> flags(n, 0);
-    for (const int32_t node : nodes) flags[static_cast<size_t>(node)] = 1;
+    for (const int32_t node : nodes) flags[node] = 1;
     out += raw.add(name, flags);
   }
   for (const auto& [name, field] : mesh.fields) out += raw.rows(name, field);

@@ -42,12 +42,12 @@ std::vector<int32_t> dofs_left(const Model& model, const std::vector<std::string
             fmt::format("{}: fixed: found \"{}\", whose coordinates were replaced by interface "
                         "modes, expected a set with its own coordinates",
                         model.name, name));
-      held[static_cast<size_t>(dof)] = 1;
+      held[dof] = 1;
     }
   }
   std::vector<int32_t> left;
   for (int32_t dof = 0; dof < model.size(); ++dof) {
-    if (held[static_cast<size_t>(dof)] == 0) left.push_back(dof);
+    if (held[dof] == 0) left.push_back(dof);
   }
   if (left.empty()) throw InputError(model.name + ": fixed: found every DoF, expected free DoFs");
   return left;
@@ -115,15 +115,15 @@ const keys::Keys<ModesOptions>& modes_keys() {
 SparseMatrix principal_submatrix(const SparseMatrix& lower, const std::vector<int32_t>& kept) {
   std::vector<int32_t> new_index(static_cast<size_t>(lower.cols()), -1);
   for (size_t k = 0; k < kept.size(); ++k) {
-    new_index[static_cast<size_t>(kept[k])] = static_cast<int32_t>(k);
+    new_index[kept[k]] = static_cast<int32_t>(k);
   }
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<size_t>(lower.nonZeros()));
+  entries.reserve(lower.nonZeros());
   for (int j = 0; j < lower.outerSize(); ++j) {
-    const int column = new_index[static_cast<size_t>(j)];
+    const int column = new_index[j];
     if (column < 0) continue;
     for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
-      const int row = new_index[static_cast<size_t>(it.row())];
+      const int row = new_index[it.row()];
       if (row >= 0) entries.emplace_back(row, column, it.value());
     }
   }

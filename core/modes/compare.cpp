@@ -109,14 +109,14 @@ int find_partner(const CommonRows& rows, const VectorXd& hz_of, double hz, int j
   double likeness = 0.5;
   const VectorXd shape = rows.full.col(j).normalized();
   for (int k = 0; k < hz_of.size(); ++k) {
-    if (taken[static_cast<size_t>(k)] != 0 || std::abs(hz_of[k] - hz) > 0.05 * hz) continue;
+    if (taken[k] != 0 || std::abs(hz_of[k] - hz) > 0.05 * hz) continue;
     const double mac = std::pow(shape.dot(rows.reduced.col(k).normalized()), 2);
     if (mac <= likeness) continue;
     best = k;
     likeness = mac;
   }
   if (best < 0) return j;
-  taken[static_cast<size_t>(best)] = 1;
+  taken[best] = 1;
   return best;
 }
 
@@ -270,7 +270,7 @@ std::string matrix_text(const Comparison& comparison) {
       "# MAC of the full model's elastic modes (rows) with those of the reduced one [Hz]\nfull_hz";
   for (double hz : comparison.column_hz) text += fmt::format(",{:.4f}", hz);
   for (Index j = 0; j < comparison.mac_matrix.rows(); ++j) {
-    text += fmt::format("\n{:.4f}", comparison.modes[static_cast<size_t>(j)].full_hz);
+    text += fmt::format("\n{:.4f}", comparison.modes[j].full_hz);
     for (double mac : comparison.mac_matrix.row(j)) text += fmt::format(",{:.6f}", mac);
   }
   return text + "\n";

@@ -12,7 +12,7 @@ namespace clatter::modes {
 namespace {
 
 std::string body_of(const std::vector<int>& body, int32_t dof) {
-  const int own = body[static_cast<size_t>(dof)];
+  const int own = body[dof];
   const int bodies = 1 + *std::max_element(body.begin(), body.end());
   if (bodies == 1) return {};
   return fmt::format(" in body {} of {} ({} unknowns)", own + 1, bodies,
@@ -24,7 +24,7 @@ std::string loose_motions(const fe::FeModel& model, const std::vector<int>& body
   const fe::FreeMotions free = fe::free_motions(model);
   std::vector<std::string> names;
   for (Eigen::Index c = 0; c < free.count(); ++c) {
-    if (dof >= 0 && free.body[static_cast<size_t>(c)] != body[static_cast<size_t>(dof)]) continue;
+    if (dof >= 0 && free.body[c] != body[dof]) continue;
     std::string name = fe::motion_name(free.unit.col(c), fe::characteristic_length(model));
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
@@ -38,7 +38,7 @@ std::string loose_motions(const fe::FeModel& model, const std::vector<int>& body
 sparse::NotPositiveDefinite explained(const fe::FeModel& model, const std::string& matrix,
                                       const std::vector<int32_t>& left,
                                       const sparse::NotPositiveDefinite& error) {
-  const int32_t dof = error.column < 0 ? -1 : left[static_cast<size_t>(error.column)];
+  const int32_t dof = error.column < 0 ? -1 : left[error.column];
   const std::vector<int> body = fe::bodies_of(model.K, model.M);
   std::string text = fmt::format("{}: {}: {}", model.name, matrix, error.what());
   if (dof >= 0) text += ", at " + fe::describe_dof(model, dof) + body_of(body, dof);

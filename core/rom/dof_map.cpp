@@ -141,9 +141,9 @@ std::vector<MappedDof> map_of(const ReducedModel& model, const NodeNumbering& nu
   for (const auto& [name, set] : model.sets) {
     for (size_t k = 0; k < set.dofs.size(); ++k) {
       if (set.dofs[k] >= model.size()) continue;  // a combination of coordinates
-      MappedDof& dof = map[static_cast<size_t>(set.dofs[k])];
+      MappedDof& dof = map[set.dofs[k]];
       if (dof.kind == MappedDof::Kind::kModal) dof = place_of(set, name, k, numbering.deck_axes);
-      int32_t& number = deck_number[static_cast<size_t>(set.dofs[k])];
+      int32_t& number = deck_number[set.dofs[k]];
       if (number == 0 && k < set.node_ids.size()) number = set.node_ids[k];
     }
   }

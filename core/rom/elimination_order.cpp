@@ -10,7 +10,7 @@ bool is_permutation(const std::vector<int32_t>& order) {
   std::vector<char> seen(order.size(), 0);
   for (const int32_t unknown : order) {
     if (unknown < 0 || static_cast<size_t>(unknown) >= order.size()) return false;
-    char& once = seen[static_cast<size_t>(unknown)];
+    char& once = seen[unknown];
     if (once != 0) return false;
     once = 1;
   }

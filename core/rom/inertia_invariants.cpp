@@ -37,7 +37,7 @@ MatrixXd sum_of(const std::array<MatrixXd, 9>& product, const Eigen::Matrix3d& w
   MatrixXd sum = MatrixXd::Zero(product[0].rows(), product[0].cols());
   for (int k = 0; k < 3; ++k)
     for (int l = 0; l < 3; ++l)
-      if (weight(k, l) != 0.0) sum += weight(k, l) * product[static_cast<size_t>(3 * k + l)];
+      if (weight(k, l) != 0.0) sum += weight(k, l) * product[3 * k + l];
   return sum;
 }
 

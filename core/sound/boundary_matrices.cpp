@@ -69,8 +69,8 @@ BoundaryMatrices boundary_matrices(const Surface& surface, const Space& space, d
   for (Eigen::Index first = 0; first < n_f; first += kAtOnce) {
     const auto count = static_cast<int>(std::min(kAtOnce, n_f - first));
     parallel_tasks(count, [&](int task) {
-      FacetRows& rows = batch[static_cast<size_t>(task)];
-      const PreparedFacet& x = facets[static_cast<size_t>(first + task)];
+      FacetRows& rows = batch[task];
+      const PreparedFacet& x = facets[first + task];
       rows.A.setZero(n_v, 3);
       rows.B.setZero(3 * n_f, 3);
       add_jump(alpha, x, first + task, rows);
@@ -81,9 +81,9 @@ BoundaryMatrices boundary_matrices(const Surface& surface, const Space& space, d
     });
     for (int task = 0; task < count; ++task)
       for (int a = 0; a < 3; ++a) {
-        const int node = facets[static_cast<size_t>(first + task)].nodes[a];
-        out.A_transposed.col(node) += batch[static_cast<size_t>(task)].A.col(a);
-        out.B_transposed.col(node) += batch[static_cast<size_t>(task)].B.col(a);
+        const int node = facets[first + task].nodes[a];
+        out.A_transposed.col(node) += batch[task].A.col(a);
+        out.B_transposed.col(node) += batch[task].B.col(a);
       }
   }
   return out;

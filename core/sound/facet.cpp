@@ -43,7 +43,7 @@ Facet Facet::quarter(int which) const {
 
 std::vector<PreparedFacet> prepared_facets(const Surface& surface) {
   std::vector<PreparedFacet> facets;
-  facets.reserve(static_cast<size_t>(surface.face_count()));
+  facets.reserve(surface.face_count());
   for (Eigen::Index f = 0; f < surface.face_count(); ++f) {
     Eigen::Matrix3d corners;
     for (int a = 0; a < 3; ++a)

@@ -11,7 +11,7 @@ namespace {
 
 /// Puts P_lm(z) sin(theta)^-m of one order m and all degrees into `value`, from index m.
 void legendre(double z, int order, double first, std::vector<double>& value) {
-  const auto at = [&](int l) -> double& { return value[static_cast<size_t>(l)]; };
+  const auto at = [&](int l) -> double& { return value[l]; };
   const int degree = static_cast<int>(value.size()) - 1;
   at(order) = first;
   if (order < degree) at(order + 1) = z * std::sqrt(2.0 * order + 3.0) * first;
@@ -41,7 +41,7 @@ Eigen::MatrixXd spherical_harmonics(const RowMatrix& unit, int degree) {
       const double scale = m > 0 ? std::numbers::sqrt2 : 1.0;
       for (int l = m; l <= degree; ++l) {
         const Eigen::Index middle = static_cast<Eigen::Index>(l) * l + l;
-        const double P = scale * value[static_cast<size_t>(l)];
+        const double P = scale * value[l];
         out(d, middle + m) = P * turn.real();
         if (m > 0) out(d, middle - m) = P * turn.imag();
       }

@@ -33,12 +33,12 @@ void check_tables(const RowMatrix& nodes, const IndexMatrix& triangles) {
       if (node < 0 || node >= nodes.rows())
         throw InputError(fmt::format("surface: face {}: found node {}, expected 0 to {}", f, node,
                                      nodes.rows() - 1));
-      used[static_cast<size_t>(node)] = 1;
+      used[node] = 1;
     }
   for (Eigen::Index n = 0; n < nodes.rows(); ++n) {
     if (!nodes.row(n).allFinite())
       throw InputError(fmt::format("surface: node {}: found a coordinate that is not finite", n));
-    if (!used[static_cast<size_t>(n)])
+    if (!used[n])
       throw InputError(fmt::format("surface: node {}: found no face with it, expected one", n));
   }
 }
@@ -95,17 +95,17 @@ std::vector<int32_t> shells(const std::map<Edge, int32_t>& face_of, Eigen::Index
   std::vector<int32_t> root(static_cast<size_t>(n_faces));
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int32_t f) {
-    while (root[static_cast<size_t>(f)] != f) {
-      auto& up = root[static_cast<size_t>(f)];
-      f = up = root[static_cast<size_t>(up)];
+    while (root[f] != f) {
+      auto& up = root[f];
+      f = up = root[up];
     }
     return f;
   };
   for (const auto& [edge, f] : face_of) {
     const int32_t a = find(f), b = find(face_of.at({edge.second, edge.first}));
-    root[static_cast<size_t>(std::max(a, b))] = std::min(a, b);
+    root[std::max(a, b)] = std::min(a, b);
   }
-  for (int32_t f = 0; f < n_faces; ++f) root[static_cast<size_t>(f)] = find(f);
+  for (int32_t f = 0; f < n_faces; ++f) root[f] = find(f);
   return root;
 }
 
@@ -113,7 +113,7 @@ void check_volumes(const Surface& surface, const std::map<Edge, int32_t>& face_o
   const std::vector<int32_t> shell = shells(face_of, surface.face_count());
   std::map<int32_t, double> volumes;
   for (Eigen::Index f = 0; f < surface.face_count(); ++f)
-    volumes[shell[static_cast<size_t>(f)]] += cone_volume(surface, f, surface.middle);
+    volumes[shell[f]] += cone_volume(surface, f, surface.middle);
   for (const auto& [face, volume] : volumes)
     if (!(volume > 0.0))
       throw InputError(fmt::format(

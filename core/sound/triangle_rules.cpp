@@ -53,9 +53,9 @@ class PairBuilder {
     const auto n = static_cast<Eigen::Index>(weight_.size());
     PairRule rule{Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n), Eigen::VectorXd(n)};
     for (Eigen::Index k = 0; k < n; ++k) {
-      rule.shape_x.col(k) = x_[static_cast<size_t>(k)];
-      rule.shape_y.col(k) = y_[static_cast<size_t>(k)];
-      rule.weight[k] = weight_[static_cast<size_t>(k)];
+      rule.shape_x.col(k) = x_[k];
+      rule.shape_y.col(k) = y_[k];
+      rule.weight[k] = weight_[k];
     }
     return rule;
   }

@@ -27,7 +27,7 @@ ModalBody make_crank_body(const CrankBody& crank) {
   ModalBody body;
   body.name = CrankBody::kName;
   body.rigid = Eigen::MatrixXd::Zero(n, 6);
-  body.is_rotation.assign(static_cast<size_t>(n), 1);
+  body.is_rotation.assign(n, 1);
   if (crank.in_bearings) {
     const double mass = root_of(crank, "mass", crank.mass);
     const double diametral = root_of(crank, "diametral moment of inertia", crank.diametral);

@@ -19,8 +19,7 @@ namespace {
 
 Matrix3X mean_of(const ElasticShapes& shapes) {
   Matrix3X mean(3, shapes.invariants.size());
-  for (int k = 0; k < 3; ++k)
-    mean.row(k) = shapes.invariants.first[static_cast<size_t>(k)].transpose() / shapes.mass;
+  for (int k = 0; k < 3; ++k) mean.row(k) = shapes.invariants.first[k].transpose() / shapes.mass;
   return mean;
 }
 
@@ -55,7 +54,7 @@ ModalBody with_modes(ModalBody body, const VectorXd& omega_squared, const Vector
   body.damping.tail(n) = damping;
   body.inertia.tail(n).setOnes();
   body.state_scale.tail(n).setOnes();
-  body.state_error.resize(static_cast<size_t>(all), StateError::kNone);
+  body.state_error.resize(all, StateError::kNone);
   return body;
 }
 

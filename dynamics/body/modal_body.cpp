@@ -86,7 +86,7 @@ std::vector<int32_t> rotations(const rom::ReducedModel& model) {
   std::vector<int32_t> flags(static_cast<size_t>(model.dof_count()), 0);
   for (const auto& [name, set] : model.sets) {
     for (size_t i = 0; i < set.dofs.size(); ++i) {
-      flags[static_cast<size_t>(set.dofs[i])] = set.is_rotation[i];
+      flags[set.dofs[i]] = set.is_rotation[i];
     }
   }
   return flags;

@@ -60,7 +60,7 @@ struct ModalBody {
   int modes() const { return static_cast<int>(omega_squared.size()); }
   int size() const { return static_cast<int>(shapes.rows()); }
   bool is_state(int mode) const {
-    return !state_error.empty() && state_error[static_cast<size_t>(mode)] != StateError::kNone;
+    return !state_error.empty() && state_error[mode] != StateError::kNone;
   }
   /// The displacement of a DoF (of ReducedModel::places) by the modal coordinates, n_m.
   Eigen::RowVectorXd row_of(int dof) const {

@@ -100,11 +100,11 @@ ModalBody spatial_coordinates(const std::string& name, double mass, double least
   // A change of p by d is a rotation by 2 d, one of L by d an angular velocity of at most d /
   // least.
   for (int k = kTurn; k < kMomentum; ++k) {
-    body.state_error[static_cast<size_t>(k)] = StateError::kRotation;
+    body.state_error[k] = StateError::kRotation;
     body.state_scale(k) = 0.5;
   }
   for (int k = kMomentum; k < kSpatial; ++k) {
-    body.state_error[static_cast<size_t>(k)] = StateError::kSpin;
+    body.state_error[k] = StateError::kSpin;
     body.state_scale(k) = least;
   }
   body.eta_start = body.v_start = Eigen::VectorXd::Zero(kSpatial);

@@ -117,7 +117,7 @@ void SpatialFrame::rotate(double time, const VectorXd& y, const VectorXd& v,
     for (int a = 0; a < modes_; ++a) {
       Matrix3d G;
       for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < 3; ++l) G(k, l) = g[static_cast<size_t>(3 * k + l)](a);
+        for (int l = 0; l < 3; ++l) G(k, l) = g[3 * k + l](a);
       state.J_w.col(a) = 2.0 * G.trace() * state.w - (G + G.transpose()) * state.w;
     }
   }

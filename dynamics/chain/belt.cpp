@@ -32,8 +32,7 @@ Vector2d span_direction(const BeltCircle& a, const BeltCircle& b,
     throw InputError(fmt::format(
         "no straight span joins {} and {}: their circles are {:.4g} mm apart, expected more than "
         "{:.4g} mm",
-        names[static_cast<size_t>(a.owner)], names[static_cast<size_t>(b.owner)], D.norm() * 1e3,
-        std::abs(e) * 1e3));
+        names[a.owner], names[b.owner], D.norm() * 1e3, std::abs(e) * 1e3));
   const double l = std::sqrt(std::max(0.0, squared));
   return ((l * D - e * across(D)) / D.squaredNorm()).normalized();
 }

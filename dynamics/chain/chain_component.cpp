@@ -28,7 +28,7 @@ ChainComponent::ChainComponent(ChainSpec spec) : spec_(std::move(spec)), layout_
     speeds_.push_back(fmt::format("{}_{}_speed", spec_.name, over.name));
   for (const BeltPart& part : layout_.belt.parts) {
     if (!part.straight || part.owner == part.next) continue;
-    const auto name = [&](int owner) { return spec_.over[static_cast<size_t>(owner)].name; };
+    const auto name = [&](int owner) { return spec_.over[owner].name; };
     spans_.push_back(
         {fmt::format("{}_tension_{}_{}", spec_.name, name(part.owner), name(part.next)),
          0.5 * (part.from + part.to), (part.to - part.from).normalized()});

@@ -60,7 +60,7 @@ std::vector<double> places_of_pins(const ChainSpec& chain, const Belt& belt, dou
   for (const double own : chain.make.pitches) {
     for (double share = 1.0; share > 0.0;) {
       while (end() <= s) go_on();
-      const ChainOver& over = chain.over[static_cast<size_t>(belt.parts[part].owner)];
+      const ChainOver& over = chain.over[belt.parts[part].owner];
       const bool seated = over.teeth > 0 && !belt.parts[part].straight;
       const double pitch =
           seated ? over.belt.front().per_angle * pitch_angle(over) : own * (1.0 + stretch);
@@ -152,7 +152,7 @@ std::string place_on_belt(const ChainSpec& chain, const ChainLayout& layout, int
       least = distance;
     }
   }
-  const auto name = [&](int owner) { return chain.over[static_cast<size_t>(owner)].name; };
+  const auto name = [&](int owner) { return chain.over[owner].name; };
   if (nearest->straight && nearest->owner != nearest->next)
     return "between " + name(nearest->owner) + " and " + name(nearest->next);
   return "on " + name(nearest->owner);

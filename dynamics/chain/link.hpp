@@ -30,10 +30,8 @@ struct ChainMake {
 
   int joints() const { return closed ? links() : links() - 1; }
   int links() const { return static_cast<int>(kinds.size()); }
-  const LinkMass& mass(int link) const {
-    return kinds[static_cast<size_t>(link)] == LinkKind::kInner ? inner : outer;
-  }
-  double half(int link) const { return 0.5 * pitches[static_cast<size_t>(link)]; }
+  const LinkMass& mass(int link) const { return kinds[link] == LinkKind::kInner ? inner : outer; }
+  double half(int link) const { return 0.5 * pitches[link]; }
   /// Sum of all pitches [m].
   double length() const;
   /// Mean mass of the chain per length [kg/m].

@@ -35,23 +35,23 @@ LinkJoints::LinkJoints(std::string name, std::vector<int> coordinates, ChainMake
     const int a = 3 * j, b = 3 * next(j);
     groups_.push_back({a, a + 1, a + 2, b, b + 1, b + 2});
   }
-  halves_.resize(static_cast<size_t>(make_.links()));
-  last_ = finished_ = accepted_ = std::vector<double>(static_cast<size_t>(make_.joints()), 0.0);
+  halves_.resize(make_.links());
+  last_ = finished_ = accepted_ = std::vector<double>(make_.joints(), 0.0);
 }
 
 /// Each link has two joints: its sine and cosine serve both.
 void LinkJoints::turn(const VectorXd& y) const {
   for (int j = 0; j < make_.links(); ++j) {
     const double angle = y(3 * j + 2);
-    halves_[static_cast<size_t>(j)] = make_.half(j) * Vector2d(std::cos(angle), std::sin(angle));
+    halves_[j] = make_.half(j) * Vector2d(std::cos(angle), std::sin(angle));
   }
 }
 
 LinkJoints::Joint LinkJoints::joint(int j, const VectorXd& y, const VectorXd& v) const {
   const int k = next(j);
   Joint at;
-  at.front = halves_[static_cast<size_t>(j)];
-  at.rear = -halves_[static_cast<size_t>(k)];
+  at.front = halves_[j];
+  at.rear = -halves_[k];
   at.d = y.segment<2>(3 * k) - y.segment<2>(3 * j) + at.rear - at.front;
   at.rate = v.segment<2>(3 * k) - v.segment<2>(3 * j) + v(3 * k + 2) * across(at.rear) -
             v(3 * j + 2) * across(at.front + at.d);
@@ -80,9 +80,9 @@ void LinkJoints::evaluate(const Stage& stage, const VectorXd& y, const VectorXd&
     response.force(3 * j + 2) += cross(at.front + at.d, force) + moment;
     response.force.segment<2>(3 * k) -= force;
     response.force(3 * k + 2) -= cross(at.rear, force) + moment;
-    last_[static_cast<size_t>(j)] = std::copysign(force.norm(), -force.dot(at.rear));
+    last_[j] = std::copysign(force.norm(), -force.dot(at.rear));
     if (!with_tangent) continue;
-    TangentBlock& block = response.blocks[static_cast<size_t>(j)];
+    TangentBlock& block = response.blocks[j];
     block.active = true;
     tangent(at, force, stage.kappa, v(3 * j + 2), v(3 * k + 2), block.values);
   }

@@ -263,7 +263,7 @@ void ProfileContact::evaluate(const Stage& stage, const VectorXd& y, const Vecto
   move(stage.time, y, v, motion_);
   MattressForce contact;
   for (int j = 0; j < links_; ++j) {
-    TangentBlock& block = response.blocks[static_cast<size_t>(j)];
+    TangentBlock& block = response.blocks[j];
     if (with_tangent) block.active = false;
     if (is_far(j, motion_, y)) continue;
     const Relative at = relative(j, motion_, y, v);

@@ -31,7 +31,7 @@ void ToothCount::update(double time, const std::vector<int>& gap_of_link) {
   int found = ahead_;
   const int last = place_;
   for (int j = 0; j < links_; ++j) {
-    const int gap = gap_of_link[static_cast<size_t>(j)];
+    const int gap = gap_of_link[j];
     if (gap < 0) continue;
     // The link's place on the loop of the chain that is nearest to the last one on the sprocket.
     place_ = last + nearest(j - last, links_);

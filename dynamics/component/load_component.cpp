@@ -55,7 +55,7 @@ Eigen::VectorXd modal_force(const LoadedBody& body, const LoadSpec& load) {
 /// At the centre of mass of a body with large motion: unit forces and moments move one of its
 /// coordinates.
 Eigen::VectorXd force_at_centre(const ModalBody& body, const LoadSpec& load) {
-  const std::string component(kComponents[static_cast<size_t>(load.component)]);
+  const std::string component(kComponents[load.component]);
   if (!load.load.empty() || !load.set.empty())
     throw InputError(fmt::format(
         "{}: load.{}: \"{}\" {}, expected component only, at its centre of mass", load.where,
@@ -128,10 +128,9 @@ void LoadComponent::add_loads(ModelBuilder& model) {
     }
     const int body = model.body(load.body);
     const LoadedBody* loaded = find_body(model.loaded, load.body);
-    const Eigen::VectorXd modal =
-        loaded != nullptr && !loaded->shapes
-            ? modal_force(*loaded, load)
-            : force_at_centre(model.system.bodies()[static_cast<size_t>(body)], load);
+    const Eigen::VectorXd modal = loaded != nullptr && !loaded->shapes
+                                      ? modal_force(*loaded, load)
+                                      : force_at_centre(model.system.bodies()[body], load);
     LoadInTime in_time = load_in_time(model, load);
     model.system.add_load({fmt::format("load {} on {}", ++count, load.body), body, modal,
                            ramped(model.time, std::move(in_time.value)),

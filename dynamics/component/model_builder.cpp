@@ -144,12 +144,12 @@ std::unique_ptr<Port> ModelBuilder::floating_port(const LoadedBody& body, const 
   Matrix3X slope;
   if (node.dofs.size() == 6) slope = rows(3) * floating.W;
   return std::make_unique<SpatialPort>(coordinates_in_space(system, index),
-                                       system.bodies()[static_cast<size_t>(index)].frame,
-                                       floating.arm(node.position), floating.shape(rows(0)), slope);
+                                       system.bodies()[index].frame, floating.arm(node.position),
+                                       floating.shape(rows(0)), slope);
 }
 
 Eigen::VectorXd frame_force(const System& system, int body, int direction) {
-  return -system.bodies()[static_cast<size_t>(body)].rigid.col(direction);
+  return -system.bodies()[body].rigid.col(direction);
 }
 
 }  // namespace clatter::dynamics

@@ -38,8 +38,7 @@ Vector2d in_plane(const Vector3d& vector, int normal) {
 
 std::vector<int> all_coordinates(System& system, int body) {
   std::vector<int> y;
-  for (int k = 0; k < system.bodies()[static_cast<size_t>(body)].size(); ++k)
-    y.push_back(system.coordinate(body, k));
+  for (int k = 0; k < system.bodies()[body].size(); ++k) y.push_back(system.coordinate(body, k));
   return y;
 }
 
@@ -201,7 +200,7 @@ void RigidBodyComponent::add_spatial(ModelBuilder& model) {
   const int index = model.add_body(std::move(body), spec_.where);
   const auto port = [start, index](System& system, const Vector3d& at) {
     const Vector3d arm = start.rotation.conjugate() * (at - start.centre);
-    const auto& frame = system.bodies()[static_cast<size_t>(index)].frame;
+    const auto& frame = system.bodies()[index].frame;
     return std::make_unique<SpatialPort>(all_coordinates(system, index), frame, arm);
   };
   model.add_ports(spec_.name, port, spec_.where);

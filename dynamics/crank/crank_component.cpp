@@ -89,7 +89,7 @@ void CrankComponent::add_load(ModelBuilder& model) {
 }
 
 void CrankComponent::add_loads(ModelBuilder& model) {
-  const ModalBody& body = model.system.bodies()[static_cast<size_t>(body_)];
+  const ModalBody& body = model.system.bodies()[body_];
   const auto turn = [clock = spec_.clock, rotation = spec_.rotation](double t) {
     return turn_about_x(clock, rotation, t);
   };

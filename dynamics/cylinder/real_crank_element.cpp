@@ -73,7 +73,7 @@ void RealCrankElement::add_column(const Eigen::VectorXd& moved, double step,
   response.tangent.setZero(n + 1, n + 1);
   response.tangent.topLeftCorner(n, n) = at_.tangent;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Index at = at_.touched.empty() ? i : at_.touched[static_cast<size_t>(i)];
+    const Eigen::Index at = at_.touched.empty() ? i : at_.touched[i];
     response.tangent(i, n) = (moved(at) - at_.force(at)) / step;
   }
 }

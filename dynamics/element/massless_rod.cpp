@@ -144,8 +144,8 @@ void MasslessRod::restore(const std::vector<double>& state) {
     throw InputError(fmt::format("{}: the saved state has {} numbers, expected {}", name_,
                                  state.size(), 2 * kRod));
   for (int k = 0; k < kRod; ++k) {
-    accepted_(k) = state[static_cast<size_t>(k)];
-    accepted_rate_(k) = state[static_cast<size_t>(kRod + k)];
+    accepted_(k) = state[k];
+    accepted_rate_(k) = state[kRod + k];
   }
 }
 

@@ -67,8 +67,7 @@ void SpinElement::add_modes(const Stage& stage, bool with_tangent, Response& res
     h_rate_ = stage_rate_[0];
   } else {
     h_before_ = h_;
-    for (int j = 0; j < stage.index; ++j)
-      h_before_ += stage.weights[static_cast<size_t>(j)] * stage_rate_[static_cast<size_t>(j)];
+    for (int j = 0; j < stage.index; ++j) h_before_ += stage.weights[j] * stage_rate_[j];
     h_rate_ = (h_stage_ - h_before_) / stage.kappa;
   }
   auto force = response.force.tail(n);
@@ -80,7 +79,7 @@ void SpinElement::add_modes(const Stage& stage, bool with_tangent, Response& res
                             w.z() * (product[1] - product[3]);
   MatrixXd softening = MatrixXd::Zero(n, n);
   for (int k = 0; k < 3; ++k)
-    for (int l = 0; l < 3; ++l) softening += weight(k, l) * product[static_cast<size_t>(3 * k + l)];
+    for (int l = 0; l < 3; ++l) softening += weight(k, l) * product[3 * k + l];
   const double per_kappa = 1.0 / stage.kappa;
   const Matrix3X change = (state_.w_by_y + state_.w_by_v * per_kappa).rightCols(kStates + n);
   const double share = again ? 0.0 : per_kappa;  // of h in its rate
@@ -92,7 +91,7 @@ void SpinElement::add_modes(const Stage& stage, bool with_tangent, Response& res
 void SpinElement::begin_step(double) { stages_ = 0; }
 
 void SpinElement::finish_stage(const Stage& stage) {
-  stage_rate_[static_cast<size_t>(stage.index)] = h_rate_;
+  stage_rate_[stage.index] = h_rate_;
   stages_ = stage.index;
 }
 
@@ -100,7 +99,7 @@ void SpinElement::accept_step(double) {
   started_ = true;
   if (frame_->modes() == 0) return;
   h_ = h_stage_;
-  stage_rate_[0] = stage_rate_[static_cast<size_t>(stages_)];
+  stage_rate_[0] = stage_rate_[stages_];
 }
 
 Power SpinElement::power(const VectorXd& y, const VectorXd& v) const {

@@ -33,7 +33,7 @@ bool BandedLu::factor() {
     double* pivot_row = &at(k, k);
     const double inverse = 1.0 / *pivot_row;
     if (!std::isfinite(inverse)) return false;
-    inverse_[static_cast<size_t>(k)] = inverse;
+    inverse_[k] = inverse;
     const int last = std::min(k + band_, n_ - 1);
     const int count = last - k;
     for (int i = k + 1; i <= last; ++i) {
@@ -60,7 +60,7 @@ void BandedLu::solve(double* x) const {
     const double* factor = row(i) + band_ + 1;
     double sum = 0.0;
     for (int k = i + 1; k <= last; ++k) sum += factor[k - i - 1] * x[k];
-    x[i] = (x[i] - sum) * inverse_[static_cast<size_t>(i)];
+    x[i] = (x[i] - sum) * inverse_[i];
   }
 }
 
@@ -77,7 +77,7 @@ void BandedLu::sweep_strip(double* x, int stride) const {
     const int last = std::min(n_ - 1, i + band_);
     double* target = x + static_cast<ptrdiff_t>(i) * stride;
     subtract_rows<kCount>(target, row(i) + band_ + 1, target + stride, last - i, stride);
-    for (int c = 0; c < kCount; ++c) target[c] *= inverse_[static_cast<size_t>(i)];
+    for (int c = 0; c < kCount; ++c) target[c] *= inverse_[i];
   }
 }
 

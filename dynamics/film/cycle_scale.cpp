@@ -32,8 +32,7 @@ std::vector<ScaleState> CycleScales::exact(double time) const {
 }
 
 void CycleScales::finish_stage(const dynamics::Stage& stage) {
-  for (size_t k = 0; k < laws_.size(); ++k)
-    rates_[k].at(static_cast<size_t>(stage.index)) = laws_[k](stage.time).rate;
+  for (size_t k = 0; k < laws_.size(); ++k) rates_[k].at(stage.index) = laws_[k](stage.time).rate;
 }
 
 void ScaledGap::add_skirt(const LinerShape& shape) {

@@ -71,23 +71,21 @@ RowMatrix rigid_radial(const PadGrid& pad, double offset, const Eigen::Vector2d&
 LinerShapeMap::LinerShapeMap(const LinerShape& shape, const PadGrid& pad)
     : shape_(shape),
       pad_(pad),
-      stencil_(shape.angle, std::vector<char>(static_cast<size_t>(shape.angle.size()), 1),
-               shape.height) {
+      stencil_(shape.angle, std::vector<char>(shape.angle.size(), 1), shape.height) {
   if (shape.deviation.rows() != shape.angle.size() || shape.deviation.cols() != shape.height.size())
     throw InputError(fmt::format(
         "liner shape: found {} x {} deviations, expected {} angles x {} heights",
         shape.deviation.rows(), shape.deviation.cols(), shape.angle.size(), shape.height.size()));
   for (int i = 0; i < pad.n_angle(); ++i) columns_.push_back(stencil_.at_angle(pad.angle(i)));
-  rows_.resize(static_cast<size_t>(pad.n_axial()));
+  rows_.resize(pad.n_axial());
 }
 
 void LinerShapeMap::add(double offset, Eigen::ArrayXd& h, Eigen::ArrayXd& slope) const {
-  for (int j = 0; j < pad_.n_axial(); ++j)
-    rows_[static_cast<size_t>(j)] = stencil_.at_axial(pad_.axial(j) + offset);
+  for (int j = 0; j < pad_.n_axial(); ++j) rows_[j] = stencil_.at_axial(pad_.axial(j) + offset);
   for (int i = 0; i < pad_.n_angle(); ++i) {
-    const CylinderStencil::Angular& around = columns_[static_cast<size_t>(i)];
+    const CylinderStencil::Angular& around = columns_[i];
     for (int j = 0; j < pad_.n_axial(); ++j) {
-      const CylinderStencil::Axial& along = rows_[static_cast<size_t>(j)];
+      const CylinderStencil::Axial& along = rows_[j];
       auto line = [&](int k) {
         return (1.0 - around.weight) * shape_.deviation(around.first, k) +
                around.weight * shape_.deviation(around.second, k);

@@ -8,8 +8,7 @@ namespace clatter::film {
 namespace {
 
 void mark(const SparseRows& rows, int first, std::vector<char>& marks) {
-  for (Eigen::Index k = 0; k < rows.nonZeros(); ++k)
-    marks[static_cast<size_t>(first + rows.innerIndexPtr()[k])] = 1;
+  for (Eigen::Index k = 0; k < rows.nonZeros(); ++k) marks[first + rows.innerIndexPtr()[k]] = 1;
 }
 
 }  // namespace
@@ -50,8 +49,8 @@ void GapMap::move(double height) {
 void GapMap::list_columns() {
   columns_.clear();
   for (int i = 0; i < at_.size(); ++i) {
-    if (used_[static_cast<size_t>(i)] == 0) continue;
-    column_[static_cast<size_t>(i)] = static_cast<int>(columns_.size());
+    if (used_[i] == 0) continue;
+    column_[i] = static_cast<int>(columns_.size());
     columns_.push_back(i);
   }
   gather(height_by_y_, height_by_column_);
@@ -63,9 +62,7 @@ void GapMap::find_pattern() {
   pattern_.reserve(piston_.nonZeros() + liner_.nonZeros() + 7 * static_cast<Eigen::Index>(cells_));
   for (int cell = 0; cell < cells_; ++cell) {
     pattern_.startVec(cell);
-    const auto put = [&](int coordinate) {
-      pattern_.insertBack(cell, column_[static_cast<size_t>(coordinate)]) = 0.0;
-    };
+    const auto put = [&](int coordinate) { pattern_.insertBack(cell, column_[coordinate]) = 0.0; };
     const auto put_row = [&](const SparseRows& rows, int first) {
       if (rows.rows() == 0) return;
       for (SparseRows::InnerIterator entry(rows, cell); entry; ++entry)
@@ -110,7 +107,7 @@ Eigen::VectorXd GapMap::slope_transposed(const Eigen::VectorXd& cells) const {
   if (!liner_map_) return result;
   for (int c = 0; c < cells_; ++c)
     for (SparseRows::InnerIterator entry(liner_slope_, c); entry; ++entry)
-      result[column_[static_cast<size_t>(at_.liner() + entry.index())]] += entry.value() * cells[c];
+      result[column_[at_.liner() + entry.index()]] += entry.value() * cells[c];
   return result;
 }
 

@@ -51,8 +51,8 @@ void OilContent::finish_stage(const Reynolds& film, const Eigen::ArrayXd& space,
     stage_content_ = film.density() * space;
   }
   stage_profile_ = film.profile();
-  rates_.at(static_cast<size_t>(index)) = (stage_content_ - before_) / kappa;
-  flows_.at(static_cast<size_t>(index)) = film.flows();
+  rates_.at(index) = (stage_content_ - before_) / kappa;
+  flows_.at(index) = film.flows();
   last_ = index;
 }
 
@@ -60,8 +60,8 @@ void OilContent::accept_step() {
   content_ = stage_content_;
   profile_ = stage_profile_;
   if (last_ == 0) return;
-  rates_[0] = rates_[static_cast<size_t>(last_)];
-  flows_[0] = flows_[static_cast<size_t>(last_)];
+  rates_[0] = rates_[last_];
+  flows_[0] = flows_[last_];
 }
 
 void OilContent::save(std::vector<double>& state) const {

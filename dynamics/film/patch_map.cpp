@@ -38,13 +38,13 @@ struct Strips {
 
 Strips strips_of(const rom::ContactGrid& grid) {
   const Eigen::Index n = grid.angle.size();
-  Strips strips{grid.angle, std::vector<char>(static_cast<size_t>(n), 0)};
+  Strips strips{grid.angle, std::vector<char>(n, 0)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Index next = (i + 1) % n;
     if (grid.angle_edges.size() != 2 * n) continue;
     const double width = grid.angle_edges[2 * i + 1] - grid.angle_edges[2 * i];
     const double space = wrap(grid.angle_edges[2 * next] - grid.angle_edges[2 * i + 1] + 1e-9);
-    strips.neighbours[static_cast<size_t>(i)] = n > 1 && space < 0.5 * width;
+    strips.neighbours[i] = n > 1 && space < 0.5 * width;
   }
   return strips;
 }
@@ -79,7 +79,7 @@ CylinderStencil::Angular CylinderStencil::at_angle(double angle) const {
     const double step = n > 1 ? wrap(angles_[next] - angles_[i]) : kTurn;
     const double past = wrap(angle - angles_[i]);
     if (past > step) continue;
-    if (neighbours_[static_cast<size_t>(i)]) return {i, next, past / step};
+    if (neighbours_[i]) return {i, next, past / step};
     const int nearest = past < 0.5 * step ? i : next;
     return {nearest, nearest, 0.0};
   }
@@ -137,7 +137,7 @@ PatchMap::PatchMap(const ElasticSurface& surface, const PadGrid& pad)
                                  grid.axis.x(), grid.axis.y(), grid.axis.z()));
   axis_sign_ = grid.axis.z() > 0.0 ? 1.0 : -1.0;
   axis_origin_ = grid.axis_point.z();
-  rows_.resize(static_cast<size_t>(pad.n_axial()));
+  rows_.resize(pad.n_axial());
   const Eigen::Vector3d across = grid.axis.cross(grid.zero_angle);
   for (int i = 0; i < pad.n_angle(); ++i) {
     const Eigen::Vector3d n = pad_normal(pad.angle(i));
@@ -161,15 +161,14 @@ void PatchMap::at(double offset, SparseRows& map, SparseRows* slope) {
   for (int j = 0; j < pad_.n_axial(); ++j) {
     const double z = pad_.axial(j) + offset;
     const CylinderStencil::Axial along = stencil_.at_axial(axis_sign_ * (z - axis_origin_));
-    rows_[static_cast<size_t>(j)] =
-        points(along.first, along.second, along.weight, along.slope * axis_sign_);
+    rows_[j] = points(along.first, along.second, along.weight, along.slope * axis_sign_);
   }
   int next = 0;
   for (int i = 0; i < pad_.n_angle(); ++i) {
-    const Points& around = columns_[static_cast<size_t>(i)];
+    const Points& around = columns_[i];
     const Eigen::Vector3d normal = pad_normal(pad_.angle(i));
     for (int j = 0; j < pad_.n_axial(); ++j) {
-      const Points& along = rows_[static_cast<size_t>(j)];
+      const Points& along = rows_[j];
       const double z = pad_.axial(j) + offset;
       Eigen::RowVector4d defect(normal.x(), normal.y(), -z * normal.y(), z * normal.x()),
           defect_slope(0.0, 0.0, -normal.y(), normal.x());
@@ -182,8 +181,7 @@ void PatchMap::at(double offset, SparseRows& map, SparseRows* slope) {
       };
       for (int a = 0; a < around.count; ++a)
         for (int k = 0; k < along.count; ++k) {
-          const Point &angular = around.of[static_cast<size_t>(a)],
-                      &axial = along.of[static_cast<size_t>(k)];
+          const Point &angular = around.of[a], &axial = along.of[k];
           const int patch = angular.at * n_z + axial.at;
           const double value = angular.weight * axial.weight, change = angular.weight * axial.slope;
           put(patch, value, change);

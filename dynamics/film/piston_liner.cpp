@@ -200,9 +200,8 @@ void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& 
                            dynamics::Response& response) {
   stroke_ = stroke_at(stage);
   if (!scales_.empty()) scaled_ = scales_.at(stage);
-  parallel_tasks(static_cast<int>(pads_.size()), [&](int k) {
-    evaluate_pad(*pads_[static_cast<size_t>(k)], stage, y, v, with_tangent);
-  });
+  parallel_tasks(static_cast<int>(pads_.size()),
+                 [&](int k) { evaluate_pad(*pads_[k], stage, y, v, with_tangent); });
   collect(with_tangent, response);
 }
 

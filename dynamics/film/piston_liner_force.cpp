@@ -66,10 +66,10 @@ void PistonLiner::update_tangent(Pad& pad) {
 void PistonLiner::list_touched(dynamics::Response& response) {
   std::fill(touched_row_.begin(), touched_row_.end(), -1);
   for (const auto& pad : pads_)
-    for (const int column : pad->map.columns()) touched_row_[static_cast<size_t>(column)] = 0;
+    for (const int column : pad->map.columns()) touched_row_[column] = 0;
   response.touched.clear();
   for (int i = 0; i < size(); ++i) {
-    int& row = touched_row_[static_cast<size_t>(i)];
+    int& row = touched_row_[i];
     if (row < 0) continue;
     row = static_cast<int>(response.touched.size());
     response.touched.push_back(i);
@@ -94,8 +94,7 @@ void PistonLiner::collect(bool with_tangent, dynamics::Response& response) {
     const std::vector<int>& columns = pad->map.columns();
     for (size_t j = 0; j < columns.size(); ++j)
       for (size_t i = 0; i < columns.size(); ++i)
-        response.tangent(touched_row_[static_cast<size_t>(columns[i])],
-                         touched_row_[static_cast<size_t>(columns[j])]) +=
+        response.tangent(touched_row_[columns[i]], touched_row_[columns[j]]) +=
             pad->tangent(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
 }

@@ -30,7 +30,7 @@ StrokeState PistonLiner::stroke_at(const dynamics::Stage& stage) const {
 
 void PistonLiner::finish_stage(const dynamics::Stage& stage) {
   if (options_.liner_layer) travel_ = travel(stage);
-  stroke_rates_.at(static_cast<size_t>(stage.index)) = bodies_.stroke(stage.time).velocity;
+  stroke_rates_.at(stage.index) = bodies_.stroke(stage.time).velocity;
   scales_.finish_stage(stage);
   for (const auto& pad : pads_) {
     if (!pad->film) continue;

@@ -38,7 +38,7 @@ Reynolds::Reynolds(const PadGrid& grid, const Edges& edges, bool cavitation, boo
   build_faces();
   number_cells();
   const int n = grid_.size();
-  full_.assign(static_cast<size_t>(n), 1);
+  full_.assign(n, 1);
   storage_.setZero(n);
   squeeze_.setZero(n);
   before_.setZero(n);
@@ -54,7 +54,7 @@ Reynolds::Reynolds(const PadGrid& grid, const Edges& edges, bool cavitation, boo
   ratio_.assign(faces_.size(), 1.0);
   rim_limited_.assign(rims_.size(), 0);
   rim_ratio_.assign(rims_.size(), 1.0);
-  end_limited_.assign(static_cast<size_t>(n), 0);
+  end_limited_.assign(n, 0);
   covered_.setZero(n);
   rim_conduct_.resize(rims_.size());
   rim_carry_.resize(rims_.size());
@@ -105,26 +105,22 @@ void Reynolds::build_faces() {
 // ends of the angular range, so that closing the ring only doubles the band.
 void Reynolds::number_cells() {
   const int n_i = grid_.n_angle(), n_j = grid_.n_axial();
-  row_.resize(static_cast<size_t>(grid_.size()));
+  row_.resize(grid_.size());
   const int axial_band = grid_.periodic() ? 2 * n_j : n_j;
   for (int i = 0; i < n_i; ++i) {
     const int folded = grid_.periodic() ? (2 * i < n_i ? 2 * i : 2 * (n_i - 1 - i) + 1) : i;
     for (int j = 0; j < n_j; ++j)
-      row_[static_cast<size_t>(grid_.cell(i, j))] =
-          axial_band <= n_i ? folded * n_j + j : j * n_i + i;
+      row_[grid_.cell(i, j)] = axial_band <= n_i ? folded * n_j + j : j * n_i + i;
   }
   int band = 0;
-  for (const Face& face : faces_)
-    band = std::max(
-        band, std::abs(row_[static_cast<size_t>(face.a)] - row_[static_cast<size_t>(face.b)]));
+  for (const Face& face : faces_) band = std::max(band, std::abs(row_[face.a] - row_[face.b]));
   lu_ = BandedLu(grid_.size(), band);
 }
 
 // The states of the last solution, of the content when there is none.
 void Reynolds::guess_split() {
   if (!started_ && !stage_.steady)
-    for (int c = 0; c < grid_.size(); ++c)
-      full_[static_cast<size_t>(c)] = before_[c] >= storage_[c];
+    for (int c = 0; c < grid_.size(); ++c) full_[c] = before_[c] >= storage_[c];
   if (stage_.recesses != nullptr) guess_recesses();
   for (size_t f = 0; f < faces_.size(); ++f) {
     const double theta = fill_[upstream_of(f)];
@@ -136,8 +132,8 @@ void Reynolds::guess_split() {
     rim_limited_[r] = rim_ratio_[r] * fill_[rims_[r].cell] > 1.0;
   if (!partial_) return;
   for (int c = 0; c < grid_.size(); ++c) {
-    if (outside(c)) full_[static_cast<size_t>(c)] = 1;
-    end_limited_[static_cast<size_t>(c)] = 2.0 * film_.content[c] * fill_[c] > film_.carry[c];
+    if (outside(c)) full_[c] = 1;
+    end_limited_[c] = 2.0 * film_.content[c] * fill_[c] > film_.carry[c];
   }
 }
 
@@ -146,7 +142,7 @@ void Reynolds::guess_split() {
 bool Reynolds::update_split() {
   const int n = grid_.size(), n_faces = static_cast<int>(faces_.size()),
             n_rims = static_cast<int>(rims_.size());
-  auto value = [this](int cell) { return x_[row_[static_cast<size_t>(cell)]]; };
+  auto value = [this](int cell) { return x_[row_[cell]]; };
   double highest = 0.0;
   for (int c = 0; c < n; ++c)
     if (is_full(c)) highest = std::max(highest, value(c));
@@ -170,7 +166,7 @@ bool Reynolds::update_split() {
       violated_.push_back(n + n_faces + static_cast<int>(r));
   }
   for (int c = 0; layers() && partial_ && c < n; ++c) {
-    char& limited = end_limited_[static_cast<size_t>(c)];
+    char& limited = end_limited_[c];
     if (is_full(c)) limited = 1;
     if (covered_[c] >= 0.0 || is_full(c)) continue;
     const double excess = 2.0 * value(c) * film_.content[c] / film_.carry[c] - 1.0;
@@ -181,13 +177,13 @@ bool Reynolds::update_split() {
   violated_.resize(search_.count(violated_));
   for (int state : violated_) {
     if (state < n)
-      full_[static_cast<size_t>(state)] ^= 1;
+      full_[state] ^= 1;
     else if (state < n + n_faces)
-      limited_[static_cast<size_t>(state - n)] ^= 1;
+      limited_[state - n] ^= 1;
     else if (state < n + n_faces + n_rims)
-      rim_limited_[static_cast<size_t>(state - n - n_faces)] ^= 1;
+      rim_limited_[state - n - n_faces] ^= 1;
     else
-      end_limited_[static_cast<size_t>(state - n - n_faces - n_rims)] ^= 1;
+      end_limited_[state - n - n_faces - n_rims] ^= 1;
   }
   return true;
 }

@@ -143,7 +143,7 @@ class Reynolds {
   const Eigen::ArrayXd& fill() const { return fill_; }
   /// Oil content of a cell relative to that when just full, theta + p / B; n.
   Eigen::ArrayXd density() const;
-  bool is_full(int cell) const { return full_[static_cast<size_t>(cell)] != 0; }
+  bool is_full(int cell) const { return full_[cell] != 0; }
   /// What the sliding wall carries of a cell, n: theta of streamers, min(theta s, c / 2) [m] of
   /// layers.
   Eigen::ArrayXd profile() const;

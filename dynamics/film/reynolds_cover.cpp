@@ -90,7 +90,7 @@ Reynolds::FaceFill Reynolds::end_law(int cell) const {
   }
   const double half = 0.5 * film_.carry[cell], rest = film_.content[cell] - half;
   if (!layers()) return {0.0, rest};
-  if (is_full(cell) || end_limited_[static_cast<size_t>(cell)] != 0) return {-half, rest};
+  if (is_full(cell) || end_limited_[cell] != 0) return {-half, rest};
   return {0.0, 0.0};
 }
 
@@ -109,7 +109,7 @@ double Reynolds::end_thickness_slope(int cell) const {
   const double d_half = 0.5 * film_.d_carry[cell], d_content = film_.d_content[cell];
   const double squeezed = stage_.bulk_modulus > 0.0 ? pressure_[cell] / stage_.bulk_modulus : 0.0;
   if (!layers()) return fill_[cell] * (d_content - d_half) + squeezed * d_content;
-  if (is_full(cell) || end_limited_[static_cast<size_t>(cell)] != 0)
+  if (is_full(cell) || end_limited_[cell] != 0)
     return (fill_[cell] + squeezed) * d_content - d_half;
   return 0.0;
 }

@@ -46,7 +46,7 @@ void Reynolds::guess_recesses() {
   for (int c = 0; c < grid_.size(); ++c) {
     if (!in_recess(c)) continue;
     const bool full = in_groove(c) && stage_.recesses->fill[c] == 1.0;
-    full_[static_cast<size_t>(c)] = full ? 1 : 0;
+    full_[c] = full ? 1 : 0;
     if (in_groove(c)) fill_[c] = stage_.recesses->fill[c];
   }
 }
@@ -67,7 +67,7 @@ void Reynolds::weigh_reservoirs(double mobility) {
 void Reynolds::add_reservoirs(double mobility, const RowMatrix& dh) {
   const Eigen::Index k = dh.cols();
   for (int c = 0; c < grid_.size(); ++c) {
-    auto row = work_.row(row_[static_cast<size_t>(c)]).head(k);
+    auto row = work_.row(row_[c]).head(k);
     if (in_groove(c)) row.setZero();
     if (!beside_groove(c)) continue;
     const double g = film_.flow_axial[c];

@@ -13,7 +13,7 @@ void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative,
   const double kappa = stage_.steady ? 1.0 : stage_.kappa;
   const double mobility = kappa / (12.0 * stage_.viscosity) / volume_scale_;
   work_.setZero(grid_.size(), BandedLu::padded(k));
-  auto row = [this, k](int cell) { return work_.row(row_[static_cast<size_t>(cell)]).head(k); };
+  auto row = [this, k](int cell) { return work_.row(row_[cell]).head(k); };
   if (!stage_.steady) {
     Eigen::ArrayXd held = density() * grid_.area();
     if (partial_) held *= stage_.cover->of_cells(grid_.n_angle());

@@ -82,7 +82,7 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
 // The row of a cell outside the liner or in a groove holds only what is given.
 void Reynolds::assemble() {
   lu_.set_zero();
-  auto row_of = [this](int cell) { return row_[static_cast<size_t>(cell)]; };
+  auto row_of = [this](int cell) { return row_[cell]; };
   auto add = [&](int cell, int unknown, double value) {
     if (!fixed(cell)) lu_.at(row_of(cell), row_of(unknown)) += value;
   };
@@ -159,7 +159,7 @@ Eigen::ArrayXd Reynolds::density() const {
 
 void Reynolds::unpack() {
   for (int c = 0; c < grid_.size(); ++c) {
-    const double value = x_[row_[static_cast<size_t>(c)]];
+    const double value = x_[row_[c]];
     const bool full = is_full(c);
     pressure_[c] = full ? (cavitation_ ? std::max(value, 0.0) : value) * pressure_scale_ : 0.0;
     // Beyond the bounds by rounding; a window holds more than its own gap.

@@ -58,7 +58,7 @@ class SlopeEquations {
   void match(int row, int i, const HermiteRow& hermite, int order) {
     const auto n = static_cast<int>(h_.size());
     const int before = (i + n - 1) % n, after = (i + 1) % n;
-    const double scale = std::pow(h_[static_cast<size_t>(i)], order);
+    const double scale = std::pow(h_[i], order);
     add(row, before, hermite.right, 0, before, scale, order);
     add(row, i, hermite.right, 3, before, scale, order);
     add(row, i, hermite.left, 0, i, -scale, order);
@@ -66,8 +66,8 @@ class SlopeEquations {
   }
   void add(int row, int point, const double* factors, int first, int interval, double scale,
            int order) {
-    const double h = h_[static_cast<size_t>(interval)], size = scale / std::pow(h, order);
-    right_(row) -= size * factors[first] * y_[static_cast<size_t>(point)];
+    const double h = h_[interval], size = scale / std::pow(h, order);
+    right_(row) -= size * factors[first] * y_[point];
     double power = h;
     for (int k = 0; k < per_point_; ++k, power *= h)
       entries_.emplace_back(row, per_point_ * point + k, size * factors[first + 1 + k] * power);

@@ -29,8 +29,8 @@ ModalBody make_chamber_body(const std::string& name, const Chamber& chamber, dou
   body.omega_squared = body.damping = body.inertia = VectorXd::Zero(n);
   body.damping(0) = 1.0;
   body.rigid = Eigen::MatrixXd::Zero(n, 6);
-  body.is_rotation.assign(static_cast<size_t>(n), 0);
-  body.state_error.assign(static_cast<size_t>(n), StateError::kNone);
+  body.is_rotation.assign(n, 0);
+  body.state_error.assign(n, StateError::kNone);
   body.state_error[0] = StateError::kOwn;
   body.state_scale = VectorXd::Ones(n);
   body.state_scale(0) = content * pressure_scale / chamber.spec().oil.modulus;

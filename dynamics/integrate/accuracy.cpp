@@ -22,7 +22,7 @@ Limits limits_of(const ModalBody& body, const Accuracy& accuracy) {
 
 double state_limit(const ModalBody& body, int mode, const Limits& limits, double tolerance) {
   const double scale = body.state_scale(mode);
-  switch (body.state_error[static_cast<size_t>(mode)]) {
+  switch (body.state_error[mode]) {
     case StateError::kRotation:
       return scale * limits.displacement / limits.arm;
     case StateError::kSpin:
@@ -42,7 +42,7 @@ ErrorWeights error_weights(const System& system, const Accuracy& accuracy) {
                  Eigen::VectorXd::Zero(system.modes()),
                  {}};
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
-    const ModalBody& body = system.bodies()[static_cast<size_t>(b)];
+    const ModalBody& body = system.bodies()[b];
     const Limits limits = limits_of(body, accuracy);
     const double root = body.mass > 0.0 ? std::sqrt(body.mass) : 1.0;
     w.velocity_limit.push_back(limits.velocity * root);
@@ -80,7 +80,7 @@ double modal_error(const System& system, const ErrorWeights& weights, const Eige
   double largest = 0.0;
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
     const int first = system.mode_offset(b);
-    const int count = system.bodies()[static_cast<size_t>(b)].modes();
+    const int count = system.bodies()[b].modes();
     const auto norm = [&](const Eigen::VectorXd& weight, const Eigen::VectorXd& error) {
       return std::sqrt((weight.array() * error.array()).segment(first, count).square().sum());
     };

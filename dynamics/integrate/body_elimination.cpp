@@ -33,9 +33,7 @@ std::vector<int> bodies_of(const StageGraph& graph) {
   std::vector<int> bodies;
   int body = 0;
   for (const StageGraph::Node& node : graph.nodes) {
-    while (node.first >= graph.bodies[static_cast<size_t>(body)].first +
-                             graph.bodies[static_cast<size_t>(body)].size)
-      ++body;
+    while (node.first >= graph.bodies[body].first + graph.bodies[body].size) ++body;
     bodies.push_back(body);
   }
   return bodies;
@@ -43,7 +41,7 @@ std::vector<int> bodies_of(const StageGraph& graph) {
 
 std::vector<char> stays_of(const std::vector<int>& bodies, const std::vector<char>& stays) {
   std::vector<char> found;
-  for (const int body : bodies) found.push_back(stays[static_cast<size_t>(body)]);
+  for (const int body : bodies) found.push_back(stays[body]);
   return found;
 }
 
@@ -89,10 +87,10 @@ BodyElimination::BodyElimination(const StageGraph& graph, const std::vector<char
   offset_.resize(graph.nodes.size());
   next_coupling_.resize(graph.couplings.size());
   fronts_.reserve(graph.nodes.size());
-  size_.resize(static_cast<size_t>(unknowns));
-  forces_.resize(static_cast<size_t>(unknowns));
-  part_.resize(static_cast<size_t>(unknowns));
-  map_.resize(static_cast<size_t>(unknowns));
+  size_.resize(unknowns);
+  forces_.resize(unknowns);
+  part_.resize(unknowns);
+  map_.resize(unknowns);
   F_end_.resize(end_rows_, end_rows_);
 }
 
@@ -109,13 +107,13 @@ void BodyElimination::find_fronts(const StageGraph& graph) {
   for (const EliminationOrder::Step& step : order_.steps()) {
     Front front;
     front.node = step.node;
-    front.body = body_[static_cast<size_t>(step.node)];
-    front.first = graph.nodes[static_cast<size_t>(step.node)].first;
-    front.size = graph.nodes[static_cast<size_t>(step.node)].size;
+    front.body = body_[step.node];
+    front.first = graph.nodes[step.node].first;
+    front.size = graph.nodes[step.node].size;
     front.step = static_cast<int>(fronts_.size());
     front.places = places_.size();
     for (const int other : order_.neighbours(step)) {
-      const StageGraph::Node& node = graph.nodes[static_cast<size_t>(other)];
+      const StageGraph::Node& node = graph.nodes[other];
       for (int k = 0; k < node.size; ++k) places_.push_back(node.first + k);
     }
     front.others = static_cast<int>(places_.size() - front.places);
@@ -128,8 +126,8 @@ void BodyElimination::find_fronts(const StageGraph& graph) {
     fronts_.push_back(front);
   }
   for (Front& front : fronts_) {
-    const int parent = order_.steps()[static_cast<size_t>(front.step)].parent;
-    int& first = parent < 0 ? end_child_ : fronts_[static_cast<size_t>(parent)].child;
+    const int parent = order_.steps()[front.step].parent;
+    int& first = parent < 0 ? end_child_ : fronts_[parent].child;
     front.sibling = std::exchange(first, front.step);
   }
   for (size_t i = 0; i < graph.couplings.size(); ++i) {
@@ -139,7 +137,7 @@ void BodyElimination::find_fronts(const StageGraph& graph) {
       const int step = order_.step_of(node);
       if (step >= 0 && (first < 0 || step < first)) first = step;
     }
-    int& list = first < 0 ? end_coupling_ : fronts_[static_cast<size_t>(first)].coupling;
+    int& list = first < 0 ? end_coupling_ : fronts_[first].coupling;
     next_coupling_[i] = std::exchange(list, static_cast<int>(i));
   }
   grow(factors_, factors);
@@ -153,9 +151,8 @@ void BodyElimination::add_up_sizes(const StageGraph& graph) {
   for (const StageGraph::Coupling& coupling : graph.couplings) {
     for (int i = 0; coupling.active && i < coupling.rows(); ++i) {
       const size_t at = coupling.coordinate(i);
-      const StageGraph::Node& node = graph.nodes[static_cast<size_t>(coupling.node[at])];
-      size_[static_cast<size_t>(node.first + coupling.row[at])] +=
-          std::abs((*coupling.tangent)(i, i));
+      const StageGraph::Node& node = graph.nodes[coupling.node[at]];
+      size_[node.first + coupling.row[at]] += std::abs((*coupling.tangent)(i, i));
     }
   }
 }
@@ -167,7 +164,7 @@ bool BodyElimination::has_grown(const StageGraph& graph, const StageGraph::Body&
   for (Index i = 0; i < body.size; ++i) {
     const double now = std::abs(F[i * (rows + 1)] * S(i, i));
     if (!(now <= largest)) largest = now;  // a NaN is kept
-    usual = std::max(usual, size_[static_cast<size_t>(body.first + i)] * S(i, i));
+    usual = std::max(usual, size_[body.first + i] * S(i, i));
   }
   return !(largest <= kMostGrowth * usual);
 }
@@ -177,13 +174,12 @@ void BodyElimination::add_coupling(const StageGraph::Coupling& coupling, Map<Mat
   const MatrixXd& T = *coupling.tangent;
   for (int i = 0; i < coupling.rows(); ++i) {
     const size_t at = coupling.coordinate(i);
-    map_[static_cast<size_t>(i)] =
-        offset_[static_cast<size_t>(coupling.node[at])] + coupling.row[at];
+    map_[i] = offset_[coupling.node[at]] + coupling.row[at];
   }
   for (Index j = 0; j < T.cols(); ++j) {
-    double* const column = F.col(map_[static_cast<size_t>(j)]).data();
+    double* const column = F.col(map_[j]).data();
     const double* const values = T.col(j).data();
-    for (Index i = 0; i < T.rows(); ++i) column[map_[static_cast<size_t>(i)]] += values[i];
+    for (Index i = 0; i < T.rows(); ++i) column[map_[i]] += values[i];
   }
 }
 
@@ -191,13 +187,12 @@ void BodyElimination::add_coupling(const StageGraph::Coupling& coupling, Map<Mat
 void BodyElimination::add_update(const StageGraph& graph, const Front& child, Map<MatrixXd> F) {
   const int m = child.others;
   int* row = map_.data();
-  for (const int i : order_.neighbours(order_.steps()[static_cast<size_t>(child.step)]))
-    for (int k = 0; k < graph.nodes[static_cast<size_t>(i)].size; ++k)
-      *row++ = offset_[static_cast<size_t>(i)] + k;
+  for (const int i : order_.neighbours(order_.steps()[child.step]))
+    for (int k = 0; k < graph.nodes[i].size; ++k) *row++ = offset_[i] + k;
   const double* values = updates_.data() + child.update;
   for (int j = 0; j < m; ++j, values += m) {
-    double* const column = F.col(map_[static_cast<size_t>(j)]).data();
-    for (int i = 0; i < m; ++i) column[map_[static_cast<size_t>(i)]] += values[i];
+    double* const column = F.col(map_[j]).data();
+    for (int i = 0; i < m; ++i) column[map_[i]] += values[i];
   }
 }
 
@@ -205,19 +200,16 @@ void BodyElimination::add_update(const StageGraph& graph, const Front& child, Ma
 bool BodyElimination::factor_front(const StageGraph& graph, const Front& front) {
   const int rows = front.size + front.others;
   std::fill_n(front_.data(), static_cast<size_t>(rows) * static_cast<size_t>(rows), 0.0);
-  offset_[static_cast<size_t>(front.node)] = 0;
+  offset_[front.node] = 0;
   int at = front.size;
-  for (const int i : order_.neighbours(order_.steps()[static_cast<size_t>(front.step)])) {
-    offset_[static_cast<size_t>(i)] = at;
-    at += graph.nodes[static_cast<size_t>(i)].size;
+  for (const int i : order_.neighbours(order_.steps()[front.step])) {
+    offset_[i] = at;
+    at += graph.nodes[i].size;
   }
   const Map<MatrixXd> F(front_.data(), rows, rows);
-  for (int i = front.coupling; i >= 0; i = next_coupling_[static_cast<size_t>(i)])
-    add_coupling(graph.couplings[static_cast<size_t>(i)], F);
-  for (int i = front.child; i >= 0; i = fronts_[static_cast<size_t>(i)].sibling)
-    add_update(graph, fronts_[static_cast<size_t>(i)], F);
-  if (has_grown(graph, graph.bodies[static_cast<size_t>(front.body)], front_.data(), rows))
-    return false;
+  for (int i = front.coupling; i >= 0; i = next_coupling_[i]) add_coupling(graph.couplings[i], F);
+  for (int i = front.child; i >= 0; i = fronts_[i].sibling) add_update(graph, fronts_[i], F);
+  if (has_grown(graph, graph.bodies[front.body], front_.data(), rows)) return false;
   return with_size(front.size, [&](auto size) { return eliminate<size()>(graph, front); });
 }
 
@@ -225,8 +217,8 @@ template <int kSize>
 bool BodyElimination::eliminate(const StageGraph& graph, const Front& front) {
   const Index n = front.size, m = front.others;
   const Map<MatrixXd> F(front_.data(), n + m, n + m);
-  const Map<const Matrix<double, kSize, kSize>> S(
-      graph.S.data() + graph.bodies[static_cast<size_t>(front.body)].S, n, n);
+  const Map<const Matrix<double, kSize, kSize>> S(graph.S.data() + graph.bodies[front.body].S, n,
+                                                  n);
   double* const factors = factors_.data() + front.factors;
   Map<Matrix<double, kSize, kSize>> inverse(factors, n, n);
   Map<Matrix<double, Dynamic, kSize>> F_Nc(factors + n * n, m, n);
@@ -252,13 +244,11 @@ bool BodyElimination::factor_end(const StageGraph& graph) {
   F_end_.setZero();
   const Map<MatrixXd> F(F_end_.data(), end_rows_, end_rows_);
   for (size_t i = 0; i < offset_.size(); ++i) offset_[i] = end_place_[i];
-  for (int i = end_coupling_; i >= 0; i = next_coupling_[static_cast<size_t>(i)])
-    add_coupling(graph.couplings[static_cast<size_t>(i)], F);
-  for (int i = end_child_; i >= 0; i = fronts_[static_cast<size_t>(i)].sibling)
-    add_update(graph, fronts_[static_cast<size_t>(i)], F);
+  for (int i = end_coupling_; i >= 0; i = next_coupling_[i]) add_coupling(graph.couplings[i], F);
+  for (int i = end_child_; i >= 0; i = fronts_[i].sibling) add_update(graph, fronts_[i], F);
   auto J = lu_.matrix(end_rows_);
   for (const Last& last : end_) {
-    const StageGraph::Body& body = graph.bodies[static_cast<size_t>(last.body)];
+    const StageGraph::Body& body = graph.bodies[last.body];
     if (has_grown(graph, body, &F_end_(last.first, last.first), end_rows_)) return false;
     J.middleRows(last.first, body.size).noalias() =
         -graph.S_of(body) * F_end_.middleRows(last.first, body.size);
@@ -278,7 +268,7 @@ bool BodyElimination::factor(const StageGraph& graph, bool renewed) {
 template <int kSize>
 void BodyElimination::solve_down(const StageGraph& graph, const Front& front, double* x) const {
   const Index n = front.size, m = front.others;
-  const StageGraph::Body& body = graph.bodies[static_cast<size_t>(front.body)];
+  const StageGraph::Body& body = graph.bodies[front.body];
   using Vector = Matrix<double, kSize, 1, 0, kSize == Dynamic ? kMostUnknowns : kSize, 1>;
   const Map<const Matrix<double, kSize, kSize>> S(graph.S.data() + body.S, n, n),
       inverse(factors_.data() + front.factors, n, n);
@@ -291,7 +281,7 @@ void BodyElimination::solve_down(const StageGraph& graph, const Front& front, do
   Map<VectorXd> forces(part_.data(), m);
   forces = F_Nc.lazyProduct(w);
   const int* const places = places_.data() + front.places;
-  for (Index i = 0; i < m; ++i) forces_[static_cast<size_t>(places[i])] += forces(i);
+  for (Index i = 0; i < m; ++i) forces_[places[i]] += forces(i);
 }
 
 template <int kSize>
@@ -309,7 +299,7 @@ void BodyElimination::solve_up(const Front& front, double* x) const {
 void BodyElimination::solve_end(const StageGraph& graph, double* x) const {
   if (end_rows_ == 0) return;
   for (const Last& last : end_) {
-    const StageGraph::Body& body = graph.bodies[static_cast<size_t>(last.body)];
+    const StageGraph::Body& body = graph.bodies[last.body];
     Map<VectorXd> right(part_.data() + last.first, body.size);
     right = Map<const VectorXd>(x + body.first, body.size);
     right.noalias() +=
@@ -317,7 +307,7 @@ void BodyElimination::solve_end(const StageGraph& graph, double* x) const {
   }
   lu_.solve(part_.data());
   for (const Last& last : end_) {
-    const StageGraph::Body& body = graph.bodies[static_cast<size_t>(last.body)];
+    const StageGraph::Body& body = graph.bodies[last.body];
     std::copy_n(part_.data() + last.first, body.size, x + body.first);
   }
 }

@@ -29,7 +29,7 @@ struct StageGraph {
     const std::vector<int>* touched = nullptr;
     int rows() const { return static_cast<int>(tangent->rows()); }
     size_t coordinate(int i) const {
-      return static_cast<size_t>(touched == nullptr ? i : (*touched)[static_cast<size_t>(i)]);
+      return static_cast<size_t>(touched == nullptr ? i : (*touched)[i]);
     }
   };
   std::vector<Body> bodies;

@@ -49,13 +49,13 @@ void EliminationOrder::visit(const Word* bits, const Visit& visit) const {
 /// About the number of multiplications.
 void EliminationOrder::find_cost(int node) {
   int others = 0;
-  visit(row(node), [&](int i) { others += sizes_[static_cast<size_t>(i)]; });
-  const int own = sizes_[static_cast<size_t>(node)], all = own + others;
-  cost_[static_cast<size_t>(node)] = static_cast<double>(own) * all * all;
+  visit(row(node), [&](int i) { others += sizes_[i]; });
+  const int own = sizes_[node], all = own + others;
+  cost_[node] = static_cast<double>(own) * all * all;
 }
 
 void EliminationOrder::eliminate(int node) {
-  there_[static_cast<size_t>(node / kBits)] &= ~(Word{1} << (node % kBits));
+  there_[node / kBits] &= ~(Word{1} << (node % kBits));
   Step step{node, -1, static_cast<int>(neighbours_.size()), 0};
   const Word* const own = row(node);
   visit(own, [&](int i) {
@@ -66,7 +66,7 @@ void EliminationOrder::eliminate(int node) {
     other[i / kBits] &= ~(Word{1} << (i % kBits));
   });
   for (size_t w = 0; w < words_; ++w) blocked_[w] |= own[w];
-  step_of_[static_cast<size_t>(node)] = static_cast<int>(steps_.size());
+  step_of_[node] = static_cast<int>(steps_.size());
   steps_.push_back(step);
 }
 
@@ -80,15 +80,14 @@ void EliminationOrder::find() {
     row(static_cast<int>(i))[i / kBits] &= ~(Word{1} << (i % kBits));
   for (const int node : left_) find_cost(node);
   const auto is_in = [](const std::vector<Word>& set, int node) {
-    return (set[static_cast<size_t>(node / kBits)] >> (node % kBits) & 1) != 0;
+    return (set[node / kBits] >> (node % kBits) & 1) != 0;
   };
   while (!left_.empty()) {
     double least = std::numeric_limits<double>::infinity();
-    for (const int node : left_) least = std::min(least, cost_[static_cast<size_t>(node)]);
+    for (const int node : left_) least = std::min(least, cost_[node]);
     std::fill(blocked_.begin(), blocked_.end(), Word{0});
     for (const int node : left_)
-      if (cost_[static_cast<size_t>(node)] <= kAlike * least && !is_in(blocked_, node))
-        eliminate(node);
+      if (cost_[node] <= kAlike * least && !is_in(blocked_, node)) eliminate(node);
     std::erase_if(left_, [&](int node) { return !is_in(there_, node); });
     for (const int node : left_)
       if (is_in(blocked_, node)) find_cost(node);

@@ -36,7 +36,7 @@ class EliminationOrder {
     return {neighbours_.data() + step.first, static_cast<size_t>(step.count)};
   }
   /// The step of a node; -1: it stays.
-  int step_of(int node) const { return step_of_[static_cast<size_t>(node)]; }
+  int step_of(int node) const { return step_of_[node]; }
 
  private:
   using Word = std::uint64_t;

@@ -42,7 +42,7 @@ class Search {
     unit_.setZero(system.modes());
     reach_.setZero(system.modes());
     for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
-      const ModalBody& body = system.bodies()[static_cast<size_t>(b)];
+      const ModalBody& body = system.bodies()[b];
       const Eigen::MatrixXd& P = system.P(b);
       for (int k = 0; k < body.modes(); ++k) {
         double& unit = unit_(system.mode_offset(b) + k);
@@ -52,7 +52,7 @@ class Search {
           unit = P.col(k).cwiseAbs().maxCoeff();
         double& reach = reach_(system.mode_offset(b) + k);
         for (Eigen::Index i = 0; !body.is_state(k) && i < P.rows(); ++i) {
-          const bool turns = system.is_rotation(system.rows(b)[static_cast<size_t>(i)]);
+          const bool turns = system.is_rotation(system.rows(b)[i]);
           reach = std::max(reach, std::abs(P(i, k)) * (turns ? options.arm : 1.0));
         }
       }

@@ -157,7 +157,7 @@ void Integrator::step(double limit) {
 /// The state moves to the end of the accepted attempt.
 void Integrator::take_step(double dt, double time) {
   std::swap(before_, now_);
-  std::swap(now_, stages_[static_cast<size_t>(tableau_->stages - 1)]);
+  std::swap(now_, stages_[tableau_->stages - 1]);
   now_.time = time;
   system_.restart_frames(before_, now_);
   system_.accept_step(time);

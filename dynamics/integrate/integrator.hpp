@@ -104,7 +104,7 @@ class Integrator {
   /// Largest of e_y, the errors of the bodies, and where asked for those of forces and
   /// accelerations, over their limits; infinite when not finite.
   double measure(const Eigen::VectorXd& e_y);
-  const StageState& end() const { return stages_[static_cast<size_t>(tableau_->stages - 1)]; }
+  const StageState& end() const { return stages_[tableau_->stages - 1]; }
 
   System& system_;
   StepOptions options_;

@@ -14,7 +14,7 @@ MissedImpulse::MissedImpulse(const System& system, const ErrorWeights& weights,
       velocity_(system.modes()) {}
 
 double MissedImpulse::error(double begin, const std::vector<StageState>& stages) {
-  const double end = stages[static_cast<size_t>(tableau_.stages - 1)].time;
+  const double end = stages[tableau_.stages - 1].time;
   bool any = false;
   for (const Load& load : system_.loads()) {
     if (!load.next_row) continue;

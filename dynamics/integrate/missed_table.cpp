@@ -21,7 +21,7 @@ MissedTable::MissedTable(const System& system, const ErrorWeights& weights, cons
 }
 
 double MissedTable::error(const StageState& begin, const std::vector<StageState>& stages) {
-  const StageState& end = stages[static_cast<size_t>(tableau_.stages - 1)];
+  const StageState& end = stages[tableau_.stages - 1];
   bool any = false;
   for (TableElement& one : tables_) {
     const TableForce& table = *one.table;

@@ -17,18 +17,15 @@ template <typename Matrix>
   const Eigen::Index n = A.rows();
   std::array<double, kMost> scale;
   std::array<Eigen::Index, kMost> pivots;
-  for (Eigen::Index i = 0; i < n; ++i)
-    scale[static_cast<size_t>(i)] = 1.0 / A.row(i).cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < n; ++i) scale[i] = 1.0 / A.row(i).cwiseAbs().maxCoeff();
   for (Eigen::Index k = 0; k < n; ++k) {
     Eigen::Index pivot = k;
     for (Eigen::Index i = k + 1; i < n; ++i)
-      if (std::abs(A(i, k)) * scale[static_cast<size_t>(i)] >
-          std::abs(A(pivot, k)) * scale[static_cast<size_t>(pivot)])
-        pivot = i;
-    pivots[static_cast<size_t>(k)] = pivot;
+      if (std::abs(A(i, k)) * scale[i] > std::abs(A(pivot, k)) * scale[pivot]) pivot = i;
+    pivots[k] = pivot;
     if (pivot != k) {
       A.row(k).swap(A.row(pivot));
-      std::swap(scale[static_cast<size_t>(k)], scale[static_cast<size_t>(pivot)]);
+      std::swap(scale[k], scale[pivot]);
     }
     const double by = 1.0 / A(k, k);
     if (!std::isfinite(by)) return false;
@@ -42,7 +39,7 @@ template <typename Matrix>
     }
   }
   for (Eigen::Index k = n; k-- > 0;)
-    if (pivots[static_cast<size_t>(k)] != k) A.col(k).swap(A.col(pivots[static_cast<size_t>(k)]));
+    if (pivots[k] != k) A.col(k).swap(A.col(pivots[k]));
   return A.allFinite();
 }
 

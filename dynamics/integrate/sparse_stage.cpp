@@ -18,7 +18,7 @@ std::vector<std::vector<int>> groups_at(const System& system) {
   int number = 0;
   for (int e = 0; e < system.elements(); ++e) {
     for (const std::vector<int>& group : system.groups(e)) {
-      for (const int y : group) found[static_cast<size_t>(y)].push_back(number);
+      for (const int y : group) found[y].push_back(number);
       ++number;
     }
   }
@@ -48,7 +48,7 @@ void SparseStage::find_unknowns() {
     const auto size = static_cast<int>(at.size());
     std::map<std::vector<int>, std::vector<int>> parts;  // rows by what touches them
     for (int row = 0; row < size; ++row) {
-      const auto y = static_cast<size_t>(at[static_cast<size_t>(row)]);
+      const auto y = static_cast<size_t>(at[row]);
       parts[size > BodyElimination::kMostUnknowns ? groups[y] : std::vector<int>()].push_back(row);
     }
     graph_.bodies.push_back({unknowns, size, entries});
@@ -58,7 +58,7 @@ void SparseStage::find_unknowns() {
     for (const auto& [touching, rows] : parts) {
       graph_.nodes.push_back({unknowns, static_cast<int>(rows.size())});
       for (const int row : rows) {
-        const auto y = static_cast<size_t>(at[static_cast<size_t>(row)]);
+        const auto y = static_cast<size_t>(at[row]);
         node_[y] = static_cast<int>(graph_.nodes.size()) - 1;
         unknown_[y] = unknowns++;
       }
@@ -76,7 +76,7 @@ void SparseStage::find_couplings() {
       for (const int i : groups[g]) {
         const auto y = static_cast<size_t>(i);
         coupling.node.push_back(node_[y]);
-        coupling.row.push_back(unknown_[y] - graph_.nodes[static_cast<size_t>(node_[y])].first);
+        coupling.row.push_back(unknown_[y] - graph_.nodes[node_[y]].first);
       }
       coupling.nodes = coupling.node;
       std::sort(coupling.nodes.begin(), coupling.nodes.end());
@@ -92,7 +92,7 @@ void SparseStage::count_nonzeros() {
   std::vector<std::vector<int>> columns(unknown_.size());
   const auto couple = [&](const std::vector<int>& all) {
     for (const int j : all) {
-      std::vector<int>& column = columns[static_cast<size_t>(j)];
+      std::vector<int>& column = columns[j];
       column.insert(column.end(), all.begin(), all.end());
     }
   };
@@ -116,7 +116,7 @@ bool SparseStage::renew_couplings() {
     const Response& response = system_->response(element);
     bool active = true;
     if (system_->has_groups(element)) {
-      const TangentBlock& block = response.blocks[static_cast<size_t>(group)];
+      const TangentBlock& block = response.blocks[group];
       active = block.active;
       coupling.tangent = &block.values;
     } else {
@@ -164,11 +164,9 @@ bool SparseStage::form(const StageOperator& op) {
 }
 
 void SparseStage::solve(VectorXd& x) const {
-  for (size_t y = 0; y < unknown_.size(); ++y)
-    right_[static_cast<size_t>(unknown_[y])] = x(static_cast<Index>(y));
+  for (size_t y = 0; y < unknown_.size(); ++y) right_[unknown_[y]] = x(static_cast<Index>(y));
   (is_dense_ ? at_once_ : by_bodies_)->solve(graph_, right_.data());
-  for (size_t y = 0; y < unknown_.size(); ++y)
-    x(static_cast<Index>(y)) = right_[static_cast<size_t>(unknown_[y])];
+  for (size_t y = 0; y < unknown_.size(); ++y) x(static_cast<Index>(y)) = right_[unknown_[y]];
 }
 
 }  // namespace clatter::dynamics

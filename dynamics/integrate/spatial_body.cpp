@@ -27,7 +27,7 @@ Vector3d SpatialBody::spin(const StageState& state) const {
 }
 
 std::vector<int> coordinates_in_space(System& system, int body) {
-  const int modes = system.bodies()[static_cast<size_t>(body)].frame->modes();
+  const int modes = system.bodies()[body].frame->modes();
   std::vector<int> y;
   for (int k = 0; k < kSpatial; ++k) y.push_back(system.coordinate(body, k));
   for (int k = 0; k < modes; ++k) y.push_back(system.modal_coordinate(body, kSpatial + k));
@@ -35,7 +35,7 @@ std::vector<int> coordinates_in_space(System& system, int body) {
 }
 
 SpatialBody add_rotation(System& system, int body) {
-  const ModalBody& owner = system.bodies()[static_cast<size_t>(body)];
+  const ModalBody& owner = system.bodies()[body];
   const SpatialBody added{body, coordinates_in_space(system, body), owner.frame};
   const int own = kSpatial - kTurn + owner.frame->modes();
   system.add_element(std::make_unique<SpinElement>(

@@ -34,25 +34,24 @@ StageMatrix::StageMatrix(const System& system) : system_(&system) {
 void StageMatrix::list_touched() {
   bool same = !touched_.empty();
   for (int e = 0; same && e < system_->elements(); ++e)
-    same = system_->tangent_rows(e) == touched_[static_cast<size_t>(e)];
+    same = system_->tangent_rows(e) == touched_[e];
   if (same) return;
   kappa_ = 0.0;
-  touched_.resize(static_cast<size_t>(system_->elements()));
-  row_.assign(static_cast<size_t>(system_->interface_size()), -1);
+  touched_.resize(system_->elements());
+  row_.assign(system_->interface_size(), -1);
   for (int e = 0; e < system_->elements(); ++e) {
     const std::vector<int>& at = system_->element(e).coordinates();
-    touched_[static_cast<size_t>(e)] = system_->tangent_rows(e);
-    for (const int i : system_->tangent_rows(e))
-      row_[static_cast<size_t>(at[static_cast<size_t>(i)])] = 0;
+    touched_[e] = system_->tangent_rows(e);
+    for (const int i : system_->tangent_rows(e)) row_[at[i]] = 0;
     if (system_->tangent_rows(e).empty())
-      for (const int y : at) row_[static_cast<size_t>(y)] = 0;
+      for (const int y : at) row_[y] = 0;
   }
   touched_y_.clear();
   body_rows_.assign(system_->bodies().size(), {});
   for (size_t b = 0; b < body_rows_.size(); ++b) {
     const std::vector<int>& rows = system_->rows(static_cast<int>(b));
     for (size_t i = 0; i < rows.size(); ++i) {
-      int& row = row_[static_cast<size_t>(rows[i])];
+      int& row = row_[rows[i]];
       if (row < 0) continue;
       row = static_cast<int>(touched_y_.size());
       touched_y_.push_back(rows[i]);
@@ -81,12 +80,11 @@ void StageMatrix::add_tangents() {
       continue;
     }
     const std::vector<int>& at = system_->element(e).coordinates();
-    const std::vector<int>& touched = touched_[static_cast<size_t>(e)];
+    const std::vector<int>& touched = touched_[e];
     const MatrixXd& T = system_->response(e).tangent;
     const auto row = [&](Index i) {
       const auto place = static_cast<size_t>(i);
-      return row_[static_cast<size_t>(
-          at[touched.empty() ? place : static_cast<size_t>(touched[place])])];
+      return row_[at[touched.empty() ? place : static_cast<size_t>(touched[place])]];
     };
     for (Index j = 0; j < T.cols(); ++j) {
       double* column = T_.col(row(j)).data();
@@ -104,7 +102,7 @@ void StageMatrix::add_blocks(int element) {
     const std::vector<int>& at = groups[g];
     for (size_t j = 0; j < at.size(); ++j)
       for (size_t i = 0; i < at.size(); ++i)
-        T_(row_[static_cast<size_t>(at[i])], row_[static_cast<size_t>(at[j])]) +=
+        T_(row_[at[i]], row_[at[j]]) +=
             blocks[g].values(static_cast<Index>(i), static_cast<Index>(j));
   }
 }
@@ -157,8 +155,7 @@ bool StageMatrix::form_dense(const StageOperator& op) {
     for (Index r = 0; r < S_part.cols(); ++r)
       for (Index c = 0; c < S_part.rows(); ++c) S_part(c, r) = S(column[c] - first, row[r] - first);
     for (Index c = 0; c < J.cols(); ++c)
-      for (Index r = 0; r < T_part.rows(); ++r)
-        T_part(r, c) = T_(row[r], columns_[static_cast<size_t>(c)]);
+      for (Index r = 0; r < T_part.rows(); ++r) T_part(r, c) = T_(row[r], columns_[c]);
     J.middleRows(column - columns_.begin(), S_part.rows()).noalias() -= S_part * T_part;
     first = end;
     row = rows_end;
@@ -170,7 +167,7 @@ bool StageMatrix::form_dense(const StageOperator& op) {
 bool StageMatrix::covers(const StageOperator& op) const {
   if (sparse_ || kappa_ != op.kappa() || touched_.empty()) return false;
   for (int e = 0; e < system_->elements(); ++e)
-    if (system_->response(e).touched != touched_[static_cast<size_t>(e)]) return false;
+    if (system_->response(e).touched != touched_[e]) return false;
   return true;
 }
 

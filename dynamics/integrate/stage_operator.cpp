@@ -56,11 +56,10 @@ StageOperator::StageOperator(const System& system, double kappa, double diagonal
     const MatrixXd& P = system.P(b);
     const auto H = H_.segment(system.mode_offset(b), P.cols());
     const VectorXd all = P.cwiseAbs2() * H;
-    const VectorXd moving =
-        P.cwiseAbs2() * H.cwiseProduct(system.bodies()[static_cast<size_t>(b)].inertia);
+    const VectorXd moving = P.cwiseAbs2() * H.cwiseProduct(system.bodies()[b].inertia);
     const auto& rows = system.rows(b);
     for (Eigen::Index i = 0; i < all.size(); ++i)
-      if (all(i) > 0.0) moving_share_(rows[static_cast<size_t>(i)]) = moving(i) / all(i);
+      if (all(i) > 0.0) moving_share_(rows[i]) = moving(i) / all(i);
   }
   for (auto* scratch : {&part_, &modal_}) scratch->resize(system.bodies().size());
   for (auto* scratch : {&picked_, &scaled_}) scratch->resize(system.bodies().size());
@@ -86,10 +85,9 @@ void StageOperator::filter(const VectorXd& e_eta, const VectorXd& e_v, VectorXd&
 void StageOperator::form_S(int body, const std::vector<int>& rows, MatrixXd& S) const {
   const MatrixXd& P = system_->P(body);
   const auto n = static_cast<Eigen::Index>(rows.size());
-  MatrixXd &picked = picked_[static_cast<size_t>(body)],
-           &scaled = scaled_[static_cast<size_t>(body)];
+  MatrixXd &picked = picked_[body], &scaled = scaled_[body];
   picked.resize(n, P.cols());
-  for (Eigen::Index i = 0; i < n; ++i) picked.row(i) = P.row(rows[static_cast<size_t>(i)]);
+  for (Eigen::Index i = 0; i < n; ++i) picked.row(i) = P.row(rows[i]);
   scaled = picked * H_.segment(system_->mode_offset(body), P.cols()).asDiagonal();
   S.resize(n, n);
   S.noalias() = scaled * picked.transpose();
@@ -117,7 +115,7 @@ void StageOperator::form_all_S() const {
 Eigen::Map<const MatrixXd> StageOperator::S(int body) const {
   if (S_starts_.empty()) form_all_S();
   const auto n = static_cast<Eigen::Index>(system_->rows(body).size());
-  return {S_.data() + S_starts_[static_cast<size_t>(body)], n, n};
+  return {S_.data() + S_starts_[body], n, n};
 }
 
 void StageOperator::apply_S(const VectorXd& f, VectorXd& result) const {

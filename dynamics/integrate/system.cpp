@@ -53,7 +53,7 @@ std::vector<std::vector<int>> groups_of(const ForceElement& element) {
   if (element.groups().empty()) return {at};
   std::vector<std::vector<int>> groups = element.groups();
   for (std::vector<int>& group : groups)
-    for (int& i : group) i = at[static_cast<size_t>(i)];
+    for (int& i : group) i = at[i];
   return groups;
 }
 
@@ -103,7 +103,7 @@ int System::combined_coordinate(int body, const WeightedDofs& sum) {
 int System::find_or_add(int body, const Place& place) {
   const auto b = static_cast<size_t>(body);
   const auto found = std::find(places_[b].begin(), places_[b].end(), place);
-  if (found != places_[b].end()) return rows_[b][static_cast<size_t>(found - places_[b].begin())];
+  if (found != places_[b].end()) return rows_[b][found - places_[b].begin()];
   const ModalBody& owner = bodies_[b];
   Eigen::RowVectorXd row;
   if (place.dof == kFrame) {
@@ -111,7 +111,7 @@ int System::find_or_add(int body, const Place& place) {
   } else if (place.dof == kMode) {
     row = Eigen::RowVectorXd::Unit(owner.modes(), place.axis);
   } else if (place.dof == kSum) {
-    const WeightedDofs& sum = sums_[static_cast<size_t>(place.axis)];
+    const WeightedDofs& sum = sums_[place.axis];
     row.setZero(owner.modes());
     for (size_t i = 0; i < sum.dofs.size(); ++i) row += sum.weights[i] * owner.row_of(sum.dofs[i]);
   } else {
@@ -154,9 +154,9 @@ void System::find_singles(int body) {
 }
 
 const System::Place& System::place_of(int y_index) const {
-  const auto b = static_cast<size_t>(owner_[static_cast<size_t>(y_index)]);
+  const auto b = static_cast<size_t>(owner_[y_index]);
   const auto at = std::find(rows_[b].begin(), rows_[b].end(), y_index) - rows_[b].begin();
-  return places_[b][static_cast<size_t>(at)];
+  return places_[b][at];
 }
 
 void System::add_element(std::unique_ptr<ForceElement> element) {
@@ -177,9 +177,8 @@ bool System::is_rotation(int y_index) const {
   const Place& place = place_of(y_index);
   if (place.dof == kMode) return false;
   if (place.dof == kFrame) return place.axis >= 3;
-  if (place.dof == kSum) return sums_[static_cast<size_t>(place.axis)].is_rotation;
-  return bodies_[static_cast<size_t>(owner(y_index))].is_rotation[static_cast<size_t>(place.dof)] !=
-         0;
+  if (place.dof == kSum) return sums_[place.axis].is_rotation;
+  return bodies_[owner(y_index)].is_rotation[place.dof] != 0;
 }
 
 int System::mode_of(int y_index) const {
@@ -190,13 +189,13 @@ int System::mode_of(int y_index) const {
 std::string System::coordinate_name(int y_index) const {
   static constexpr const char* kAxes[] = {"x", "y", "z", "rx", "ry", "rz"};
   const Place& place = place_of(y_index);
-  const std::string& body = bodies_[static_cast<size_t>(owner(y_index))].name;
+  const std::string& body = bodies_[owner(y_index)].name;
   if (place.dof == kMode) return fmt::format("{}: mode {}", body, place.axis + 1);
   if (place.dof == kFrame) return fmt::format("{}: rigid frame, {}", body, kAxes[place.axis]);
   if (place.dof == kSum)
     return fmt::format("{}: {} of {} coordinates", body,
                        is_rotation(y_index) ? "rotation" : "displacement",
-                       sums_[static_cast<size_t>(place.axis)].dofs.size());
+                       sums_[place.axis].dofs.size());
   return fmt::format("{}: coordinate {}", body, place.dof);
 }
 
@@ -274,7 +273,7 @@ void System::interface(const std::array<const VectorXd*, kCount>& modal,
     }
     for (size_t k = 0; k < kCount; ++k)
       for (Eigen::Index i = 0; i < n; ++i)
-        (*y[k])(rows_[b][static_cast<size_t>(i)]) = sums[static_cast<Eigen::Index>(k) * n + i];
+        (*y[k])(rows_[b][i]) = sums[static_cast<Eigen::Index>(k) * n + i];
   }
 }
 
@@ -322,7 +321,7 @@ Mobility System::mobility(const StageState& state, const std::vector<int>& coord
   Mobility found{MatrixXd(n, n), MatrixXd(n, n)};
   VectorXd eta, v;
   for (Eigen::Index k = 0; k < n; ++k) {
-    jump(state, VectorXd::Unit(interface_size(), coordinates[static_cast<size_t>(k)]), eta, v);
+    jump(state, VectorXd::Unit(interface_size(), coordinates[k]), eta, v);
     found.y.col(k) = gather(interface(eta), coordinates);
     found.v.col(k) = gather(interface(v), coordinates);
   }

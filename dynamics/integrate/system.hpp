@@ -72,22 +72,22 @@ class System {
 
   const std::vector<ModalBody>& bodies() const { return bodies_; }
   const std::vector<Load>& loads() const { return loads_; }
-  ForceElement& element(int index) { return *elements_[static_cast<size_t>(index)]; }
-  const ForceElement& element(int index) const { return *elements_[static_cast<size_t>(index)]; }
+  ForceElement& element(int index) { return *elements_[index]; }
+  const ForceElement& element(int index) const { return *elements_[index]; }
   int elements() const { return static_cast<int>(elements_.size()); }
   const std::vector<ElementCost>& costs() const { return costs_; }
   int modes() const { return modes_; }                                    // N
   int interface_size() const { return static_cast<int>(owner_.size()); }  // n_y
   /// First modal coordinate of a body in eta.
-  int mode_offset(int body) const { return offsets_[static_cast<size_t>(body)]; }
+  int mode_offset(int body) const { return offsets_[body]; }
   /// The body of a y.
-  int owner(int y_index) const { return owner_[static_cast<size_t>(y_index)]; }
+  int owner(int y_index) const { return owner_[y_index]; }
   /// Interface rows of a body (indices in y), and P of that body (rows x its modes).
-  const std::vector<int>& rows(int body) const { return rows_[static_cast<size_t>(body)]; }
-  const Eigen::MatrixXd& P(int body) const { return P_[static_cast<size_t>(body)]; }
+  const std::vector<int>& rows(int body) const { return rows_[body]; }
+  const Eigen::MatrixXd& P(int body) const { return P_[body]; }
   /// The rows of the bodies that have only such rows.
   const SingleRows& single_rows() const { return singles_; }
-  bool has_single_rows(int body) const { return single_[static_cast<size_t>(body)] != 0; }
+  bool has_single_rows(int body) const { return single_[body] != 0; }
   /// 1 where a y is a rotation.
   bool is_rotation(int y_index) const;
   /// The modal coordinate that a y is; -1: it is a DoF.
@@ -138,9 +138,7 @@ class System {
   /// The y index of a tangent row of an element.
   int tangent_row(int element, Eigen::Index row) const;
   /// The y indices of each of an element's groups; one who has none is one group of all.
-  const std::vector<std::vector<int>>& groups(int element) const {
-    return groups_[static_cast<size_t>(element)];
-  }
+  const std::vector<std::vector<int>>& groups(int element) const { return groups_[element]; }
   bool has_groups(int element) const { return !this->element(element).groups().empty(); }
   /// f += T dy with the elements' last tangents.
   void add_tangent_forces(const Eigen::VectorXd& dy, Eigen::VectorXd& f) const;
@@ -149,15 +147,11 @@ class System {
   void pass_on(const Eigen::VectorXd& dy, Eigen::VectorXd& f);
   void keep_forces();
   /// What an element passed on at the end of the last stage, n_e; empty before the first.
-  const Eigen::VectorXd& passed_force(int element) const {
-    return passed_[static_cast<size_t>(element)];
-  }
+  const Eigen::VectorXd& passed_force(int element) const { return passed_[element]; }
   /// An element's last response.
-  const Response& response(int element) const { return responses_[static_cast<size_t>(element)]; }
+  const Response& response(int element) const { return responses_[element]; }
   /// Response::touched of an element when its last tangent was computed: the tangent's rows.
-  const std::vector<int>& tangent_rows(int element) const {
-    return tangent_rows_[static_cast<size_t>(element)];
-  }
+  const std::vector<int>& tangent_rows(int element) const { return tangent_rows_[element]; }
   void begin_step(double time);
   void finish_stage(const Stage& stage);
   void accept_step(double time);

@@ -72,7 +72,7 @@ void System::add_tangent_forces(const VectorXd& dy, VectorXd& f) const {
   }
 }
 
-void System::keep_forces() { passed_.resize(static_cast<size_t>(elements())); }
+void System::keep_forces() { passed_.resize(elements()); }
 
 void System::pass_on(const VectorXd& dy, VectorXd& f) {
   add_tangent_forces(dy, f);
@@ -80,7 +80,7 @@ void System::pass_on(const VectorXd& dy, VectorXd& f) {
     passed_[e] = responses_[e].force;
     const std::vector<int>& rows = tangent_rows_[e];
     for (Eigen::Index i = 0; i < change_[e].size(); ++i)
-      passed_[e](rows.empty() ? i : rows[static_cast<size_t>(i)]) += change_[e](i);
+      passed_[e](rows.empty() ? i : rows[i]) += change_[e](i);
   }
 }
 

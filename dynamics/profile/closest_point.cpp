@@ -42,7 +42,7 @@ double closest_parameter(const ProfileCell& cell, const std::vector<Cubic>& cubi
     const double y = across / (along + std::hypot(along, across));
     return y > from && y < to ? y : end;
   }
-  const Cubic& cubic = cubics[static_cast<size_t>(cell.cubic)];
+  const Cubic& cubic = cubics[cell.cubic];
   const auto slope = [&](double y) { return (cubic.position(y) - point).dot(cubic.derivative(y)); };
   if (!(slope(from) < 0.0 && slope(to) > 0.0)) return end;
   const double inner = cubic_minimum(cubic, point, from, to);

@@ -23,8 +23,8 @@ GaussRule::GaussRule(int nodes) : size(nodes) {
       x -= value / slope;
     }
     if (2 * i + 1 == nodes) x = 0.0;
-    node[static_cast<size_t>(i)] = x;
-    weight[static_cast<size_t>(i)] = 2.0 / ((1.0 - x * x) * slope * slope);
+    node[i] = x;
+    weight[i] = 2.0 / ((1.0 - x * x) * slope * slope);
   }
 }
 

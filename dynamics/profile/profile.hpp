@@ -68,9 +68,7 @@ class Profile {
   const std::vector<Cubic>& cubics() const { return cubics_; }
   const CircleTree& tree() const { return tree_; }
   /// cos and sin of the angle by which part `index`, 0 to repeats - 1, is turned.
-  const Eigen::Vector2d& rotation(int index) const {
-    return rotations_[static_cast<size_t>(index)];
-  }
+  const Eigen::Vector2d& rotation(int index) const { return rotations_[index]; }
   /// cos and sin of half of the angle of a part.
   const Eigen::Vector2d& border() const { return border_; }
   /// Out of the solid, of the length of the derivative by the parameter.

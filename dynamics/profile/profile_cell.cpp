@@ -16,8 +16,7 @@ double cubic_length(const Cubic& cubic, double from, double to) {
   const double half = 0.5 * (to - from), middle = 0.5 * (to + from);
   double sum = 0.0;
   for (int i = 0; i < rule.size; ++i)
-    sum += rule.weight[static_cast<size_t>(i)] *
-           cubic.derivative(middle + half * rule.node[static_cast<size_t>(i)]).norm();
+    sum += rule.weight[i] * cubic.derivative(middle + half * rule.node[i]).norm();
   return half * sum;
 }
 
@@ -30,7 +29,7 @@ double cell_length(const ProfileCell& cell, const std::vector<Cubic>& cubics, do
     case Kind::kArc:
       return 2.0 * cell.radius * (std::atan(y) - std::atan(cell.begin));
     default:
-      return cubic_length(cubics[static_cast<size_t>(cell.cubic)], cell.begin, y);
+      return cubic_length(cubics[cell.cubic], cell.begin, y);
   }
 }
 
@@ -38,7 +37,7 @@ double cell_parameter(const ProfileCell& cell, const std::vector<Cubic>& cubics,
   double y = cell.begin + length;
   if (cell.kind == Kind::kArc) y = std::tan(std::atan(cell.begin) + 0.5 * length / cell.radius);
   if (cell.kind == Kind::kCubic) {
-    const Cubic& cubic = cubics[static_cast<size_t>(cell.cubic)];
+    const Cubic& cubic = cubics[cell.cubic];
     y = cell.begin + (cell.end - cell.begin) * length / cell.length;
     // Speed changes little in a cell: Newton's method gains digits from the start.
     for (int i = 0; i < 8; ++i) {
@@ -53,7 +52,7 @@ double cell_parameter(const ProfileCell& cell, const std::vector<Cubic>& cubics,
 
 double cell_curvature(const ProfileCell& cell, const std::vector<Cubic>& cubics, double y) {
   if (cell.kind != Kind::kCubic) return cell.curvature;
-  const Cubic& cubic = cubics[static_cast<size_t>(cell.cubic)];
+  const Cubic& cubic = cubics[cell.cubic];
   const Eigen::Vector2d d = cubic.derivative(y), dd = cubic.second_derivative(y);
   const double speed = d.norm();
   return (d.x() * dd.y() - d.y() * dd.x()) / (speed * speed * speed);

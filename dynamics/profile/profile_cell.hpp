@@ -60,7 +60,7 @@ inline CurvePoint cell_point(const ProfileCell& cell, const std::vector<Cubic>& 
     case ProfileCell::Kind::kArc:
       return arc_point(cell, y);
     default:
-      return cubic_point(cubics[static_cast<size_t>(cell.cubic)], y);
+      return cubic_point(cubics[cell.cubic], y);
   }
 }
 

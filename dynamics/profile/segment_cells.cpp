@@ -168,7 +168,7 @@ Circle bounding_circle(const ProfileCell& cell, const std::vector<Cubic>& cubics
   // Arcs of at most 180 deg are inside the circle over their chord. A cubic is inside the hull of
   // its control points.
   if (cell.kind == Kind::kCubic) {
-    const auto hull = control_points(cubics[static_cast<size_t>(cell.cubic)], cell.begin, cell.end);
+    const auto hull = control_points(cubics[cell.cubic], cell.begin, cell.end);
     for (const Vector2d& corner : hull) radius = std::max(radius, (corner - middle).norm());
   }
   return {middle, radius * (1.0 + 1e-12)};

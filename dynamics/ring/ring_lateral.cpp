@@ -30,24 +30,23 @@ void RingLateral::move(double stroke) {
   if (stroke == stroke_) return;
   stroke_ = stroke;
   map_.at(stroke, by_cell_, &by_cell_slope_);
-  for (const int column : columns_) place_[static_cast<size_t>(column)] = -1;
+  for (const int column : columns_) place_[column] = -1;
   columns_.clear();
   for (Eigen::Index k = 0; k < by_cell_.nonZeros(); ++k) {
     const int column = by_cell_.innerIndexPtr()[k];
-    int& place = place_[static_cast<size_t>(column)];
+    int& place = place_[column];
     if (place >= 0) continue;
     place = 0;
     columns_.push_back(column);
   }
   std::sort(columns_.begin(), columns_.end());
-  for (size_t k = 0; k < columns_.size(); ++k)
-    place_[static_cast<size_t>(columns_[k])] = static_cast<int>(k);
+  for (size_t k = 0; k < columns_.size(); ++k) place_[columns_[k]] = static_cast<int>(k);
   rows_.setZero(2, std::ssize(columns_));
   slope_.setZero(2, std::ssize(columns_));
   for (int i = 0; i < kCells; ++i) {
     const Eigen::Vector2d weight = 2.0 / kCells * film::pad_normal(cells_.angle(i)).head<2>();
     for (auto k = by_cell_.outerIndexPtr()[i]; k < by_cell_.outerIndexPtr()[i + 1]; ++k) {
-      const int place = place_[static_cast<size_t>(by_cell_.innerIndexPtr()[k])];
+      const int place = place_[by_cell_.innerIndexPtr()[k]];
       rows_.col(place) += by_cell_.valuePtr()[k] * weight;
       slope_.col(place) += by_cell_slope_.valuePtr()[k] * weight;
     }

@@ -48,7 +48,7 @@ void RingPack::list_touched(Response& response) {
   std::fill(touched_place_.begin(), touched_place_.end(), -1);
   for (size_t k = 0; k < lateral_.size(); ++k) {
     if (options_.rings[k].groove == 0.0) continue;
-    for (const int column : lateral_[k].columns()) touched_place_[static_cast<size_t>(column)] = 0;
+    for (const int column : lateral_[k].columns()) touched_place_[column] = 0;
   }
   for (size_t i = static_cast<size_t>(std::max(n_liner_ - film::kFits, 0));
        i < touched_place_.size(); ++i)
@@ -79,9 +79,7 @@ void RingPack::find_rows(size_t ring, double stroke) {
   const Eigen::Vector2d& axis = bodies_.bore_axis;
   slide_.setZero(2, std::ssize(touched_));
   slide_rate_.setZero(2, std::ssize(touched_));
-  const auto place = [&](int coordinate) {
-    return touched_place_[static_cast<size_t>(coordinate)];
-  };
+  const auto place = [&](int coordinate) { return touched_place_[coordinate]; };
   slide_(0, place(pin())) = 1.0;
   slide_(1, place(pin() + 1)) = 1.0;
   slide_(1, place(pin() + 3)) = -h;
@@ -107,7 +105,7 @@ void RingPack::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eige
   list_touched(response);
   const auto n = static_cast<Eigen::Index>(touched_.size());
   axial_touched_.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i) axial_touched_(i) = axial_(touched_[static_cast<size_t>(i)]);
+  for (Eigen::Index i = 0; i < n; ++i) axial_touched_(i) = axial_(touched_[i]);
   response.force.setZero(y.size());
   if (with_tangent) response.tangent.setZero(n, n);
   last_.groove = last_.axial_lost = last_.lateral_lost = last_.input = 0.0;
@@ -117,7 +115,7 @@ void RingPack::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eige
     response.force += at.friction * axial_.transpose();
     if (options_.rings[k].groove > 0.0)
       for (Eigen::Index i = 0; i < n; ++i)
-        response.force(touched_[static_cast<size_t>(i)]) += slide_.col(i).dot(at.force);
+        response.force(touched_[i]) += slide_.col(i).dot(at.force);
     if (with_tangent) add_tangent(at, stage.kappa, stroke.velocity, response);
   }
 }

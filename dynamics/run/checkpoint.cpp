@@ -20,7 +20,7 @@ Checkpoint state_in(const H5File& file) {
   point.state.a = file.read_vector("state/a");
   point.state.y = file.read_vector("state/y");
   point.state.v_y = file.read_vector("state/v_y");
-  point.elements.resize(static_cast<size_t>(file.get_int("/", "elements")));
+  point.elements.resize(file.get_int("/", "elements"));
   for (size_t e = 0; e < point.elements.size(); ++e) {
     const auto name = fmt::format("elements/{}", e);
     if (file.has(name)) point.elements[e] = file.read_doubles(name);

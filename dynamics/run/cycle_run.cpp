@@ -84,8 +84,7 @@ void CycleRun::restore(const Checkpoint& from) {
     require("state", values->size(), system.modes());
   for (const auto* values : {&from.state.y, &from.state.v_y})
     require("state", values->size(), system.interface_size());
-  for (int e = 0; e < system.elements(); ++e)
-    model_->system.element(e).restore(from.elements[static_cast<size_t>(e)]);
+  for (int e = 0; e < system.elements(); ++e) model_->system.element(e).restore(from.elements[e]);
   if (scene_.time.settle > 0.0) {  // the state was moved: its rates and forces are others
     method_->start(span_.begin, from.state.eta, from.state.v);
     return;

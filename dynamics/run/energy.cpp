@@ -49,8 +49,8 @@ EnergyBalance::Flow EnergyBalance::flow(const StageState& state) const {
     const auto& at = element.coordinates();
     const Power power = element.power(gather(state.y, at), gather(state.v_y, at));
     flow.element += power.stored;
-    flow.powers[lost_term_[static_cast<size_t>(e)]] -= power.lost;
-    flow.powers[input_term_[static_cast<size_t>(e)]] += power.input;
+    flow.powers[lost_term_[e]] -= power.lost;
+    flow.powers[input_term_[e]] += power.input;
   }
   return flow;
 }

@@ -40,9 +40,9 @@ ForceRecord::ForceRecord(Model& model, const LoadedBodies& bodies, const ForceRe
       body_(body_index(bodies, spec)),
       dataset_(run::path(run::path(run::kForces, spec.body), spec.name)),
       stages_(static_cast<size_t>(method.stages) + 1),
-      samples_(begin, end, step, model.system.bodies()[static_cast<size_t>(body_)].modes(),
+      samples_(begin, end, step, model.system.bodies()[body_].modes(),
                [this](const SampleBlock& block) { write(block); }) {
-  const LoadedBody& body = bodies[static_cast<size_t>(body_)];
+  const LoadedBody& body = bodies[body_];
   to_reduced_ = body.model.M_rr * body.sampled;
   find(spec);
   model.system.keep_forces();
@@ -88,14 +88,14 @@ Eigen::VectorXd ForceRecord::force(double time) const {
       sum += f(part.place[i]) * P.row(part.row[i]).transpose();
   }
   for (const int l : loads_) {
-    const Load& load = system.loads()[static_cast<size_t>(l)];
+    const Load& load = system.loads()[l];
     sum += load.value(time) * load.direction;
   }
   return sum;
 }
 
 void ForceRecord::stage(int index, const StageState& state) {
-  stages_[static_cast<size_t>(index)] = force(state.time);
+  stages_[index] = force(state.time);
   time_ = state.time;
 }
 
@@ -109,10 +109,10 @@ void ForceRecord::accept(double dt) {
   if (stages_[0].size() == 0) now_.a = stages_[0] = stages_[1];
   before_ = now_;
   for (int i = 0; i <= method_.stages; ++i) {
-    const double weight = dt * method_.b[static_cast<size_t>(i)];
-    if (weight != 0.0) now_.v += weight * stages_[static_cast<size_t>(i)];
+    const double weight = dt * method_.b[i];
+    if (weight != 0.0) now_.v += weight * stages_[i];
   }
-  stages_[0] = stages_[static_cast<size_t>(method_.stages)];
+  stages_[0] = stages_[method_.stages];
   now_.a = stages_[0];
   now_.time = time_;
   samples_.add(before_, now_);

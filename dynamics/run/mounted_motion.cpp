@@ -26,7 +26,7 @@ std::optional<Eigen::MatrixXd> motions_of_all(const Model& model, double time) {
   for (const auto& component : model.components) frames.merge(component->frames(time));
   Eigen::MatrixXd motions(system.modes(), 6);
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
-    const ModalBody& body = system.bodies()[static_cast<size_t>(b)];
+    const ModalBody& body = system.bodies()[b];
     const auto frame = frames.find(b);
     if (frame == frames.end() && (body.rigid_modes != 6 || body.frame)) return std::nullopt;
     Eigen::Matrix<double, 6, 6> motion = Eigen::Matrix<double, 6, 6>::Identity();

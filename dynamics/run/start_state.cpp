@@ -31,7 +31,7 @@ std::string place_of(const Model& model, int body) {
 std::string unbalanced_text(const Model& model, const Equilibrium& found) {
   if (found.worst < 0) return "forces that are not finite";
   const auto& bodies = model.system.bodies();
-  const auto name = [&](int body) { return bodies[static_cast<size_t>(body)].name; };
+  const auto name = [&](int body) { return bodies[body].name; };
   const int worst = body_of(model.system, found.worst);
   if (const std::string place = place_of(model, worst); !place.empty())
     return name(worst) + ", " + place;
@@ -39,9 +39,7 @@ std::string unbalanced_text(const Model& model, const Equilibrium& found) {
   double most = 0.0;
   for (int b = 0; b < static_cast<int>(bodies.size()); ++b) {
     const double force =
-        found.unbalanced
-            .segment(model.system.mode_offset(b), bodies[static_cast<size_t>(b)].modes())
-            .maxCoeff();
+        found.unbalanced.segment(model.system.mode_offset(b), bodies[b].modes()).maxCoeff();
     const std::string place = force > most ? place_of(model, b) : "";
     if (place.empty()) continue;
     most = force;

@@ -126,7 +126,7 @@ std::vector<BodyDof> ShaftBodies::coordinates(const ShaftSpec& shaft, size_t sta
   if (!bends) return {angle};
   std::vector<BodyDof> dofs;
   for (int k = 0; k < 6; ++k) dofs.push_back({body[station], k});
-  dofs[static_cast<size_t>(3 + shaft.axes.axis)] = angle;
+  dofs[3 + shaft.axes.axis] = angle;
   return dofs;
 }
 

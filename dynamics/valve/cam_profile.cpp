@@ -99,7 +99,7 @@ bool CamProfile::rests(double angle, double margin) const {
   const auto middle =
       static_cast<int>(std::lround((angle / kTurn - std::floor(angle / kTurn)) * kPoints));
   for (int k = middle - count; k <= middle + count; ++k)
-    if (!rests_[static_cast<size_t>(((k % kPoints) + kPoints) % kPoints)]) return false;
+    if (!rests_[((k % kPoints) + kPoints) % kPoints]) return false;
   return true;
 }
 

@@ -34,7 +34,7 @@ ModalBody make_coil_body(const std::string& name, const CoilSpringSpec& spec, co
   body.inertia = VectorXd::Ones(n);
   body.rigid = MatrixXd::Zero(n, 6);
   for (Eigen::Index k = 0; k < n; ++k) body.rigid.row(k).head<3>() = root * axis.transpose();
-  body.is_rotation.assign(static_cast<size_t>(n), 0);
+  body.is_rotation.assign(n, 0);
   body.rigid_modes = static_cast<int>(n);
   body.mass = spec.mass;
   body.eta_start.resize(n);

@@ -259,7 +259,7 @@ void GmshSession::replace_cells(const RawMesh& raw) {
       std::vector<double> coordinates;
       for (Eigen::Index i = 0; i < cells.size(); ++i) {
         const int32_t row = cells.data()[i];
-        const size_t tag = tags[static_cast<size_t>(row)];
+        const size_t tag = tags[row];
         corners.push_back(tag);
         if (!known.insert(tag).second) continue;
         inner.push_back(tag);

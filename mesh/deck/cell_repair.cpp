@@ -31,26 +31,25 @@ struct Cell {
 std::vector<int> mirror_of(CellType type) {
   const CellTraits& cell = traits(type);
   std::vector<int> p(static_cast<size_t>(cell.nodes));
-  for (int i = 0; i < cell.corners; ++i) p[static_cast<size_t>(i)] = i;
+  for (int i = 0; i < cell.corners; ++i) p[i] = i;
   if (cell.corners == 4 || cell.corners == 6) std::swap(p[1], p[2]);
   if (cell.corners == 6) std::swap(p[4], p[5]);
   if (cell.corners == 5 || cell.corners == 8) std::swap(p[1], p[3]);
   if (cell.corners == 8) std::swap(p[5], p[7]);
   for (int e = 0; e < cell.nodes - cell.corners; ++e) {
-    const auto [a, b] = cell.edges[static_cast<size_t>(e)];
-    const auto image = std::minmax(p[static_cast<size_t>(a)], p[static_cast<size_t>(b)]);
+    const auto [a, b] = cell.edges[e];
+    const auto image = std::minmax(p[a], p[b]);
     const auto at = std::find_if(cell.edges.begin(), cell.edges.end(), [&](const Edge& edge) {
       return std::minmax(edge[0], edge[1]) == image;
     });
-    p[static_cast<size_t>(cell.corners + e)] =
-        cell.corners + static_cast<int>(at - cell.edges.begin());
+    p[cell.corners + e] = cell.corners + static_cast<int>(at - cell.edges.begin());
   }
   return p;
 }
 
 Nodes mirrored(CellType type, const Nodes& nodes) {
   Nodes out;
-  for (const int i : mirror_of(type)) out.push_back(nodes[static_cast<size_t>(i)]);
+  for (const int i : mirror_of(type)) out.push_back(nodes[i]);
   return out;
 }
 
@@ -66,8 +65,7 @@ std::vector<Nodes> faces_of(CellType type, const Nodes& nodes) {
   std::vector<Nodes> faces;
   for (const CellFace& face : traits(type).faces) {
     Nodes corners;
-    for (int i = 0; i < traits(face.type).corners; ++i)
-      corners.push_back(nodes[static_cast<size_t>(face.nodes[static_cast<size_t>(i)])]);
+    for (int i = 0; i < traits(face.type).corners; ++i) corners.push_back(nodes[face.nodes[i]]);
     corners = distinct_cycle(corners);
     if (corners.size() >= 3) faces.push_back(std::move(corners));
   }
@@ -116,17 +114,16 @@ bool add_mid_side_nodes(CellType type, const Nodes& old, Cell& made) {
   const CellTraits& from = traits(type);
   std::map<std::pair<int32_t, int32_t>, int32_t> middle;
   for (int e = 0; e < from.nodes - from.corners; ++e) {
-    const auto [a, b] = from.edges[static_cast<size_t>(e)];
-    const int32_t i = old[static_cast<size_t>(a)], j = old[static_cast<size_t>(b)];
-    const int32_t node = old[static_cast<size_t>(from.corners + e)];
+    const auto [a, b] = from.edges[e];
+    const int32_t i = old[a], j = old[b];
+    const int32_t node = old[from.corners + e];
     if (i == j && node != i) return false;
     if (i != j && middle.emplace(std::minmax(i, j), node).first->second != node) return false;
   }
   for (const CellType quadratic : {CellType::kTet10, CellType::kPyramid13, CellType::kWedge15})
     if (traits(quadratic).corners == traits(made.type).corners) made.type = quadratic;
   for (const auto& [a, b] : traits(made.type).edges) {
-    const auto at = middle.find(
-        std::minmax(made.nodes[static_cast<size_t>(a)], made.nodes[static_cast<size_t>(b)]));
+    const auto at = middle.find(std::minmax(made.nodes[a], made.nodes[b]));
     if (at == middle.end()) return false;
     made.nodes.push_back(at->second);
   }
@@ -152,7 +149,7 @@ std::vector<int> edges_by_position(CellType type, const CellNodes& x) {
   std::vector<int> edge_of;
   for (int m = cell.corners; m < cell.nodes; ++m) {
     for (int e = 0; e < cell.nodes - cell.corners; ++e) {
-      const auto [a, b] = cell.edges[static_cast<size_t>(e)];
+      const auto [a, b] = cell.edges[e];
       const double away = (x.row(m) - 0.5 * (x.row(a) + x.row(b))).norm();
       if (away > kNear * (x.row(a) - x.row(b)).norm()) continue;
       if (std::ranges::count(edge_of, e) > 0) return {};
@@ -210,7 +207,7 @@ class CellRepair {
         const Cell cell = simple_cell(block, c);
         Made& of_type = made[cell.type];
         of_type.nodes.insert(of_type.nodes.end(), cell.nodes.begin(), cell.nodes.end());
-        if (!block.ids.empty()) of_type.ids.push_back(block.ids[static_cast<size_t>(c)]);
+        if (!block.ids.empty()) of_type.ids.push_back(block.ids[c]);
         ++simplified_[{block.type, cell.type}];
       }
       if (!made.empty()) keep(block, kept);
@@ -225,7 +222,7 @@ class CellRepair {
     block.nodes = block.nodes(rows, Eigen::all).eval();
     std::vector<int32_t> ids;
     for (const Eigen::Index c : rows)
-      if (!block.ids.empty()) ids.push_back(block.ids[static_cast<size_t>(c)]);
+      if (!block.ids.empty()) ids.push_back(block.ids[c]);
     block.ids = std::move(ids);
   }
 
@@ -291,7 +288,7 @@ class CellRepair {
     const CellTraits& cell = traits(block.type);
     const auto at = [&](int i) { return mesh_.nodes.row(block.nodes(c, i)); };
     for (int e = 0; e < cell.nodes - cell.corners; ++e) {
-      const auto [a, b] = cell.edges[static_cast<size_t>(e)];
+      const auto [a, b] = cell.edges[e];
       if ((2.0 * at(cell.corners + e) - at(a) - at(b)).squaredNorm() >
           (at(a) - at(b)).squaredNorm())
         return true;
@@ -320,7 +317,7 @@ class CellRepair {
         for (const CellFace& face : traits(block.type).faces) {
           Nodes nodes;
           for (int i = 0; i < traits(face.type).nodes; ++i)
-            nodes.push_back(block.nodes(c, face.nodes[static_cast<size_t>(i)]));
+            nodes.push_back(block.nodes(c, face.nodes[i]));
           by_corners.emplace(face_key(face.type, nodes), std::pair(face.type, nodes));
         }
     for (auto& [name, surface] : mesh_.surfaces) surface = repaired(surface, by_corners);

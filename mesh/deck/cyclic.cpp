@@ -65,7 +65,7 @@ Match match(const Mesh& mesh, const CyclicSector& sector, const Eigen::Matrix3d&
 }
 
 int32_t label(const std::vector<int32_t>& ids, int32_t at) {
-  return ids.empty() ? at + 1 : ids[static_cast<size_t>(at)];
+  return ids.empty() ? at + 1 : ids[at];
 }
 
 // The ring's node of each node of each sector.
@@ -74,16 +74,16 @@ class Ring {
   Ring(const Mesh& mesh, const CyclicSector& sector) : sector_(sector), n_(mesh.nodes.rows()) {
     join(mesh);
     int32_t next = static_cast<int32_t>(n_);
-    node_.resize(static_cast<size_t>(sector.count));
+    node_.resize(sector.count);
     for (int32_t k = 0; k < sector.count; ++k) {
-      auto& row = node_[static_cast<size_t>(k)];
+      auto& row = node_[k];
       for (int32_t i = 0; i < n_; ++i) {
-        const int32_t before = before_[static_cast<size_t>(i)];
-        const int32_t after = after_[static_cast<size_t>(i)];
+        const int32_t before = before_[i];
+        const int32_t after = after_[i];
         if (k == 0 || before == i)
           row.push_back(i);
         else if (before >= 0)
-          row.push_back(node_[static_cast<size_t>(k - 1)][static_cast<size_t>(before)]);
+          row.push_back(node_[k - 1][before]);
         else if (after >= 0 && k == sector.count - 1)
           row.push_back(after);
         else
@@ -93,14 +93,10 @@ class Ring {
     size_ = next;
   }
 
-  int32_t at(int32_t k, int32_t node) const {
-    return node_[static_cast<size_t>(k)][static_cast<size_t>(node)];
-  }
+  int32_t at(int32_t k, int32_t node) const { return node_[k][node]; }
   int32_t size() const { return size_; }
   Eigen::Matrix3d rotation(int32_t k) const { return turn(sector_, sign_ * k); }
-  bool on_side(int32_t node) const {
-    return before_[static_cast<size_t>(node)] >= 0 || after_[static_cast<size_t>(node)] >= 0;
-  }
+  bool on_side(int32_t node) const { return before_[node] >= 0 || after_[node] >= 0; }
 
  private:
   // before_: the coincident node of the previous sector; after_: that of the next sector.
@@ -121,16 +117,16 @@ class Ring {
           "node at a distance of {:.3g}, expected matching meshes on both sides",
           sector_.where, sector_.one.size(), sector_.other.size(), 360.0 / sector_.count,
           label(mesh.node_ids, found.worst), found.apart));
-    before_.assign(static_cast<size_t>(n_), -1);
+    before_.assign(n_, -1);
     after_ = before_;
     for (size_t i = 0; i < sector_.one.size(); ++i) {
-      before_[static_cast<size_t>(sector_.one[i])] = found.partner[i];
-      after_[static_cast<size_t>(found.partner[i])] = sector_.one[i];
+      before_[sector_.one[i]] = found.partner[i];
+      after_[found.partner[i]] = sector_.one[i];
     }
     for (size_t i = 0; i < sector_.one.size(); ++i) {
       const int32_t node = sector_.one[i], partner = found.partner[i];
-      const bool once = after_[static_cast<size_t>(partner)] == node;
-      const bool axial = node == partner || after_[static_cast<size_t>(node)] < 0;
+      const bool once = after_[partner] == node;
+      const bool axial = node == partner || after_[node] < 0;
       if (!once || !axial)
         throw InputError(fmt::format("{}: node {} matches two nodes of the other side",
                                      sector_.where, label(mesh.node_ids, partner)));
@@ -344,9 +340,8 @@ class Unfolding {
         const int32_t node = ring_.at(k, i);
         sum.row(node) += turned(sector_, Q, own.row(i).transpose()).transpose();
         times[node] += 1.0;
-        int32_t& id = all_ids[static_cast<size_t>(node)];
-        if (offset > 0 && id == 0)
-          id = static_cast<int32_t>(ids[static_cast<size_t>(i)] + k * offset);
+        int32_t& id = all_ids[node];
+        if (offset > 0 && id == 0) id = static_cast<int32_t>(ids[i] + k * offset);
       }
     }
     mesh_.nodes = times.cwiseInverse().asDiagonal() * sum;

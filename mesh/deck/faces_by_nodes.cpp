@@ -32,9 +32,7 @@ FacesByNodes::Found FacesByNodes::find(FaceType type, std::span<const int32_t> n
   found.fit = Fit::kBoundary;
   if (last - first == 1) return found;
   const BoundaryFace other = face_at(mesh_, *(first + 1));
-  const auto region = [&](const BoundaryFace& face) {
-    return mesh_.cells[static_cast<size_t>(face.block)].region;
-  };
+  const auto region = [&](const BoundaryFace& face) { return mesh_.cells[face.block].region; };
   found.fit = region(found.face) == region(other) ? Fit::kInside : Fit::kBetween;
   if (!same_sense(found.face, nodes)) found.face = other;
   return found;

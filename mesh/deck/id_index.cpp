@@ -10,7 +10,7 @@ IdIndex::IdIndex(const std::vector<int32_t>& ids) {
   if (highest <= 4 * ids.size() + 65536) {
     table_.assign(highest + 1, -1);
     for (int32_t row = 0; row < rows; ++row) {
-      int32_t& entry = table_[static_cast<size_t>(ids[static_cast<size_t>(row)])];
+      int32_t& entry = table_[ids[row]];
       if (entry < 0) {
         entry = row;
       } else {
@@ -21,7 +21,7 @@ IdIndex::IdIndex(const std::vector<int32_t>& ids) {
   }
   sorted_.reserve(ids.size());
   for (int32_t row = 0; row < rows; ++row) {
-    sorted_.emplace_back(ids[static_cast<size_t>(row)], row);
+    sorted_.emplace_back(ids[row], row);
   }
   std::sort(sorted_.begin(), sorted_.end());
   size_t kept = 0;
@@ -38,7 +38,7 @@ IdIndex::IdIndex(const std::vector<int32_t>& ids) {
 int32_t IdIndex::find(int32_t id) const {
   if (id < 1) return -1;
   if (!table_.empty()) {
-    return static_cast<size_t>(id) < table_.size() ? table_[static_cast<size_t>(id)] : -1;
+    return static_cast<size_t>(id) < table_.size() ? table_[id] : -1;
   }
   const auto at =
       std::lower_bound(sorted_.begin(), sorted_.end(), std::pair<int32_t, int32_t>(id, 0));

@@ -43,7 +43,7 @@ void IdIndex::for_each(int32_t first, int32_t last, int32_t step, const Body& bo
   if (!table_.empty()) {
     const int64_t end = std::min<int64_t>(last, static_cast<int64_t>(table_.size()) - 1);
     for (int64_t id = first; id <= end; id += step) {
-      if (const int32_t row = table_[static_cast<size_t>(id)]; row >= 0) body(row);
+      if (const int32_t row = table_[id]; row >= 0) body(row);
     }
     return;
   }

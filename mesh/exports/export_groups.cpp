@@ -43,7 +43,7 @@ std::vector<std::vector<size_t>> sets_of_nodes(const Mesh& mesh) {
   std::vector<std::vector<size_t>> sets(static_cast<size_t>(mesh.nodes.rows()));
   size_t index = 0;
   for (const auto& [name, nodes] : mesh.node_sets) {
-    for (const int32_t node : nodes) sets[static_cast<size_t>(node)].push_back(index);
+    for (const int32_t node : nodes) sets[node].push_back(index);
     ++index;
   }
   return sets;
@@ -69,7 +69,7 @@ std::vector<std::vector<int32_t>> export_cell_numbers(const Mesh& mesh) {
   if (complete && are_numbers(all)) return numbers;
   int32_t next = 0;
   for (size_t b = 0; b < numbers.size(); ++b) {
-    numbers[b].resize(static_cast<size_t>(mesh.cells[b].nodes.rows()));
+    numbers[b].resize(mesh.cells[b].nodes.rows());
     for (int32_t& number : numbers[b]) number = ++next;
   }
   return numbers;

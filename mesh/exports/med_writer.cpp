@@ -118,13 +118,12 @@ class MedWriter {
       const CellBlock& block = mesh_.cells[b];
       const CellTraits& cell = traits(block.type);
       Elements& elements = elements_[std::string(cell.med_name)];
-      const int32_t own =
-          family(cell_families_, {mesh_.regions[static_cast<size_t>(block.region)]}, -1);
+      const int32_t own = family(cell_families_, {mesh_.regions[block.region]}, -1);
       for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
         std::vector<int32_t>& row = elements.nodes.emplace_back();
         for (const int i : cell.to_med) row.push_back(block.nodes(c, i) + 1);
         elements.families.push_back(own);
-        elements.numbers.push_back(numbers[b][static_cast<size_t>(c)]);
+        elements.numbers.push_back(numbers[b][c]);
         last_ = std::max(last_, elements.numbers.back());
       }
     }

@@ -51,7 +51,7 @@ class MshWriter {
   }
 
   int32_t node_id(int32_t row) const {
-    return mesh_.node_ids.empty() ? row + 1 : mesh_.node_ids[static_cast<size_t>(row)];
+    return mesh_.node_ids.empty() ? row + 1 : mesh_.node_ids[row];
   }
 
   void nodes() {
@@ -77,7 +77,7 @@ class MshWriter {
     const size_t before = mesh_.node_sets.size() + mesh_.surfaces.size() + 1;
     for (const CellBlock& block : mesh_.cells)
       for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-        const int64_t id = block.ids.empty() ? last_ + 1 : block.ids[static_cast<size_t>(c)];
+        const int64_t id = block.ids.empty() ? last_ + 1 : block.ids[c];
         last_ = std::max(last_, id);
         element(id, traits(block.type).gmsh_type, before + static_cast<size_t>(block.region),
                 block.nodes.row(c));

@@ -38,7 +38,7 @@ class UnvWriter {
     end();
     begin(2411);
     for (Eigen::Index n = 0; n < mesh_.nodes.rows(); ++n) {
-      put("{:>10}{:>10}{:>10}{:>10}\n", node_numbers_[static_cast<size_t>(n)], 1, 1, 11);
+      put("{:>10}{:>10}{:>10}{:>10}\n", node_numbers_[n], 1, 1, 11);
       put("{}{}{}\n", real(mesh_.nodes(n, 0)), real(mesh_.nodes(n, 1)), real(mesh_.nodes(n, 2)));
     }
     end();
@@ -69,8 +69,8 @@ class UnvWriter {
     put("{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", number, kind.descriptor, property, property, 7,
         kind.nodes.size());
     for (size_t i = 0; i < kind.nodes.size(); ++i) {
-      const auto row = nodes[static_cast<size_t>(kind.nodes[i])];
-      put("{:>10}", node_numbers_[static_cast<size_t>(row)]);
+      const auto row = nodes[kind.nodes[i]];
+      put("{:>10}", node_numbers_[row]);
       if (i % 8 == 7 || i + 1 == kind.nodes.size()) put("\n");
     }
   }
@@ -82,7 +82,7 @@ class UnvWriter {
       throw InputError(fmt::format("mesh '{}': universal files have no element for {}", mesh_.name,
                                    traits(block.type).name));
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-      const int32_t number = cell_numbers_[b][static_cast<size_t>(c)];
+      const int32_t number = cell_numbers_[b][c];
       last_ = std::max(last_, number);
       element(
           number, kind, block.region + 1,
@@ -125,7 +125,7 @@ class UnvWriter {
     }
     for (const auto& [name, nodes] : mesh_.node_sets) {
       std::vector<int32_t> members;
-      for (const int32_t row : nodes) members.push_back(node_numbers_[static_cast<size_t>(row)]);
+      for (const int32_t row : nodes) members.push_back(node_numbers_[row]);
       group(name, kNode, members);
     }
   }

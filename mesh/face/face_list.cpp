@@ -74,7 +74,7 @@ std::vector<Corners> corners_of(const FaceTriangles& drawn) {
   std::vector<Corners> corners;
   for (Eigen::Index t = 0; t < drawn.triangles.rows(); ++t) {
     Corners& c = corners.emplace_back();
-    for (int i = 0; i < 3; ++i) c[static_cast<size_t>(i)] = drawn.nodes.row(drawn.triangles(t, i));
+    for (int i = 0; i < 3; ++i) c[i] = drawn.nodes.row(drawn.triangles(t, i));
   }
   return corners;
 }
@@ -234,7 +234,7 @@ void write_faces(H5File& file, const FaceList& list, const FaceTriangles& drawn,
   std::vector<double> radii, areas;
   RowMatrix direction(count, 3), position(count, 3);
   for (Eigen::Index f = 0; f < count; ++f) {
-    const FaceFacts& face = list.faces[static_cast<size_t>(f)];
+    const FaceFacts& face = list.faces[f];
     numbers.push_back(face.tag);
     kinds.push_back(kind_text(face.shape));
     names.push_back(fmt::format("{}", fmt::join(surface_names(list, face.tag), " ")));

@@ -70,8 +70,8 @@ void fit_centre(const Sample& s, const Matrix3d& P, SurfaceShape& shape) {
   VectorXd b(3 * count);
   for (Eigen::Index i = 0; i < count; ++i) {
     A.block<3, 3>(3 * i, 0) = P;
-    A.block<3, 1>(3 * i, 3) = P * s.n[static_cast<size_t>(i)];
-    b.segment<3>(3 * i) = P * s.x[static_cast<size_t>(i)];
+    A.block<3, 1>(3 * i, 3) = P * s.n[i];
+    b.segment<3>(3 * i) = P * s.x[i];
   }
   const VectorXd found = least_squares(A, b);
   shape.point = found.head<3>();
@@ -193,7 +193,7 @@ double worst_distance(const SurfaceShape& shape, const Points& points) {
 std::string name_of(ShapeKind kind) {
   constexpr std::array<const char*, 8> kNames = {"plane", "cylinder", "cone",   "sphere",
                                                  "torus", "revolved", "spline", "other"};
-  return kNames[static_cast<size_t>(kind)];
+  return kNames[kind];
 }
 
 bool is_round(ShapeKind kind) {

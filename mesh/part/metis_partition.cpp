@@ -62,21 +62,21 @@ void check_parts(const CellNeighbours& graph, const Partition& partition) {
     const int32_t p = partition.part[c];
     if (p < 0 || p >= partition.parts)
       throw NumericsError(fmt::format("partition: METIS gave cell {} the part {}", c, p));
-    if (first[static_cast<size_t>(p)] < 0) first[static_cast<size_t>(p)] = static_cast<int32_t>(c);
+    if (first[p] < 0) first[p] = static_cast<int32_t>(c);
   }
   std::vector<bool> reached(partition.part.size(), false);
   std::vector<int32_t> stack;
   for (int32_t p = 0; p < partition.parts; ++p) {
-    if (first[static_cast<size_t>(p)] < 0)
+    if (first[p] < 0)
       throw NumericsError(
           fmt::format("partition: part {} of {} is empty: choose fewer parts", p, partition.parts));
-    stack.push_back(first[static_cast<size_t>(p)]);
-    reached[static_cast<size_t>(stack.back())] = true;
+    stack.push_back(first[p]);
+    reached[stack.back()] = true;
     while (!stack.empty()) {
       const auto cell = static_cast<size_t>(stack.back());
       stack.pop_back();
       for (int64_t k = graph.start[cell]; k < graph.start[cell + 1]; ++k) {
-        const auto next = static_cast<size_t>(graph.neighbour[static_cast<size_t>(k)]);
+        const auto next = static_cast<size_t>(graph.neighbour[k]);
         if (reached[next] || partition.part[next] != p) continue;
         reached[next] = true;
         stack.push_back(static_cast<int32_t>(next));
@@ -86,7 +86,7 @@ void check_parts(const CellNeighbours& graph, const Partition& partition) {
   const auto lost = std::find(reached.begin(), reached.end(), false);
   if (lost != reached.end())
     throw NumericsError(fmt::format("partition: part {} is not connected: choose another number",
-                                    partition.part[static_cast<size_t>(lost - reached.begin())]));
+                                    partition.part[lost - reached.begin()]));
 }
 
 }  // namespace
@@ -124,7 +124,7 @@ CellNeighbours cell_neighbours(const Mesh& mesh) {
   std::vector<std::pair<int32_t, int32_t>> pairs;
   for_each_face(all_faces(mesh), [&](auto first, auto last) {
     const auto number = [&](const FaceRef& place) {
-      return first_of_block[static_cast<size_t>(place.block)] + place.cell;
+      return first_of_block[place.block] + place.cell;
     };
     for (auto other = first + 1; other != last; ++other) {
       pairs.emplace_back(number(*first), number(*other));
@@ -155,7 +155,7 @@ std::vector<int32_t> CellNeighbours::bodies() const {
       const size_t cell = stack.back();
       stack.pop_back();
       for (int64_t k = start[cell]; k < start[cell + 1]; ++k) {
-        const auto next = static_cast<size_t>(neighbour[static_cast<size_t>(k)]);
+        const auto next = static_cast<size_t>(neighbour[k]);
         if (body[next] >= 0) continue;
         body[next] = count;
         stack.push_back(next);
@@ -171,7 +171,7 @@ Partition partition_cells(const Mesh& mesh, int parts) {
   if (parts < 1 || parts > cells)
     throw InputError(
         fmt::format("partition: found {} parts, expected 1 to {} (cells)", parts, cells));
-  Partition out{parts, std::vector<int32_t>(static_cast<size_t>(cells), 0), 0};
+  Partition out{parts, std::vector<int32_t>(cells, 0), 0};
   if (parts == 1) return out;  // METIS divides by zero (hard case M2)
   const CellNeighbours graph = cell_neighbours(mesh);
   if (graph.neighbour.size() > static_cast<size_t>(std::numeric_limits<idx_t>::max()))
@@ -185,8 +185,7 @@ Partition partition_cells(const Mesh& mesh, int parts) {
   check_parts(graph, out);
   for (size_t c = 0; c < out.part.size(); ++c)
     for (int64_t k = graph.start[c]; k < graph.start[c + 1]; ++k)
-      if (out.part[static_cast<size_t>(graph.neighbour[static_cast<size_t>(k)])] > out.part[c])
-        ++out.cut;
+      if (out.part[graph.neighbour[k]] > out.part[c]) ++out.cut;
   return out;
 }
 

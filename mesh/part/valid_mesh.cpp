@@ -161,7 +161,7 @@ size_t many_slivers(const Slivers& slivers) {
 void add_spots_at_folds(SizeSettings& sizes, const Mesh& mesh, const ValidityReport& folded,
                         double metres_per_unit) {
   for (const InvalidCell& cell : folded.invalid) {
-    const auto x = corners_of(mesh, mesh.cells[static_cast<size_t>(cell.block)], cell.cell);
+    const auto x = corners_of(mesh, mesh.cells[cell.block], cell.cell);
     const double mean = mean_edge(x) / metres_per_unit;
     sizes.spots.push_back({cell.centre / metres_per_unit, mean, kFoldFactor * mean});
   }

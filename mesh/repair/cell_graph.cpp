@@ -40,7 +40,7 @@ CellGraph::CellGraph(const Mesh& mesh) {
       boundary_edges_.insert({i, j});
       boundary_edges_.insert({j, k});
       boundary_edges_.insert({i, k});
-      for (int32_t node : {i, j, k}) fixed_[static_cast<size_t>(node)] = true;
+      for (int32_t node : {i, j, k}) fixed_[node] = true;
     }
   }
 }
@@ -71,7 +71,7 @@ void CellGraph::remove_last_node() {
 }
 
 void CellGraph::add_cell(const TetCorners& corners, int block) {
-  for (int32_t node : corners) around_[static_cast<size_t>(node)].push_back(cells_.size());
+  for (int32_t node : corners) around_[node].push_back(cells_.size());
   cells_.push_back(corners);
   block_.push_back(block);
   alive_.push_back(true);
@@ -79,7 +79,7 @@ void CellGraph::add_cell(const TetCorners& corners, int block) {
 
 void CellGraph::remove_cell(size_t cell) {
   alive_[cell] = false;
-  for (int32_t node : cells_[cell]) std::erase(around_[static_cast<size_t>(node)], cell);
+  for (int32_t node : cells_[cell]) std::erase(around_[node], cell);
 }
 
 Eigen::Matrix<double, 4, 3> CellGraph::positions_of(const TetCorners& corners) const {
@@ -103,7 +103,7 @@ void CellGraph::store(Mesh& mesh) const {
   for (int32_t i = 0; i < node_count(); ++i) mesh.nodes.row(i) = point(i).transpose();
   std::vector<std::vector<TetCorners>> by_block(mesh.cells.size());
   for (size_t c = 0; c < cells_.size(); ++c) {
-    if (alive_[c]) by_block[static_cast<size_t>(block_[c])].push_back(cells_[c]);
+    if (alive_[c]) by_block[block_[c]].push_back(cells_[c]);
   }
   for (size_t b = 0; b < by_block.size(); ++b) {
     mesh.cells[b].nodes =

@@ -23,18 +23,16 @@ class CellGraph {
   bool alive(size_t cell) const { return alive_[cell]; }
   const TetCorners& cell(size_t cell) const { return cells_[cell]; }
   int block_of(size_t cell) const { return block_[cell]; }
-  const std::vector<size_t>& around(int32_t node) const {
-    return around_[static_cast<size_t>(node)];
-  }
+  const std::vector<size_t>& around(int32_t node) const { return around_[node]; }
   /// Cells that have both nodes.
   std::vector<size_t> around_edge(int32_t a, int32_t b) const;
   /// On the boundary of a block: must not move.
-  bool fixed(int32_t node) const { return fixed_[static_cast<size_t>(node)]; }
+  bool fixed(int32_t node) const { return fixed_[node]; }
   /// On the boundary of a block: must not be split.
   bool boundary_edge(int32_t a, int32_t b) const;
 
-  Eigen::Vector3d& point(int32_t node) { return points_[static_cast<size_t>(node)]; }
-  const Eigen::Vector3d& point(int32_t node) const { return points_[static_cast<size_t>(node)]; }
+  Eigen::Vector3d& point(int32_t node) { return points_[node]; }
+  const Eigen::Vector3d& point(int32_t node) const { return points_[node]; }
   int32_t node_count() const { return static_cast<int32_t>(points_.size()); }
 
   int32_t add_node(const Eigen::Vector3d& x);

@@ -62,11 +62,11 @@ struct Region {
 
 Region region_of(const Mesh& mesh, const std::vector<CellIndex>& poor) {
   Region region;
-  region.number.assign(static_cast<size_t>(mesh.nodes.rows()), -1);
+  region.number.assign(mesh.nodes.rows(), -1);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& [b, c] : poor)
-    for (const int32_t node : mesh.cells[static_cast<size_t>(b)].nodes.row(c)) {
-      int32_t& number = region.number[static_cast<size_t>(node)];
+    for (const int32_t node : mesh.cells[b].nodes.row(c)) {
+      int32_t& number = region.number[node];
       if (number >= 0) continue;
       number = static_cast<int32_t>(region.unknowns++);
       sum += mesh.nodes.row(node).transpose();
@@ -76,7 +76,7 @@ Region region_of(const Mesh& mesh, const std::vector<CellIndex>& poor) {
     const IndexMatrix& nodes = mesh.cells[b].nodes;
     for (Eigen::Index c = 0; c < nodes.rows(); ++c)
       if (std::any_of(nodes.row(c).begin(), nodes.row(c).end(),
-                      [&](int32_t node) { return region.number[static_cast<size_t>(node)] >= 0; }))
+                      [&](int32_t node) { return region.number[node] >= 0; }))
         region.cells.emplace_back(static_cast<int32_t>(b), static_cast<int32_t>(c));
   }
   return region;
@@ -90,7 +90,7 @@ class BestFit {
   }
 
   void add(const Mesh& mesh, const CellIndex& index) {
-    const CellBlock& block = mesh.cells[static_cast<size_t>(index.first)];
+    const CellBlock& block = mesh.cells[index.first];
     CellNodes x = cell_nodes(mesh, block, index.second);
     x.rowwise() -= region_.origin.transpose();
     Fields nodal(x.rows(), kFields);
@@ -129,11 +129,11 @@ class BestFit {
   template <class Nodes>
   void scatter(const Nodes& nodes, const Eigen::MatrixXd& stiffness, const Fields& load) {
     for (Eigen::Index i = 0; i < nodes.size(); ++i) {
-      const int32_t row = region_.number[static_cast<size_t>(nodes[i])];
+      const int32_t row = region_.number[nodes[i]];
       if (row < 0) continue;
       load_.row(row) += load.row(i);
       for (Eigen::Index j = 0; j < nodes.size(); ++j) {
-        const int32_t column = region_.number[static_cast<size_t>(nodes[j])];
+        const int32_t column = region_.number[nodes[j]];
         if (column >= 0 && column <= row) entries_.emplace_back(row, column, stiffness(i, j));
       }
       // If every node is free q_h is known up to a constant; this fixes it.
@@ -154,8 +154,7 @@ double frequency_effect(const Mesh& mesh, const std::vector<CellIndex>& poor) {
   std::vector<CellIndex> looked_at;
   const size_t step = poor.size() / kMostPoorCells + 1;
   for (size_t i = 0; i < poor.size(); i += step)
-    if (traits(mesh.cells[static_cast<size_t>(poor[i].first)].type).order > 1)
-      looked_at.push_back(poor[i]);
+    if (traits(mesh.cells[poor[i].first].type).order > 1) looked_at.push_back(poor[i]);
   if (looked_at.empty()) return 0.0;
   const Region region = region_of(mesh, looked_at);
   BestFit fit(region);

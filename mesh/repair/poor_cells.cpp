@@ -52,7 +52,7 @@ double volume_at(const Mesh& mesh, const std::vector<bool>& marked) {
   for (const CellBlock& block : mesh.cells)
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
       if (std::any_of(block.nodes.row(c).begin(), block.nodes.row(c).end(),
-                      [&](int32_t node) { return marked[static_cast<size_t>(node)]; }))
+                      [&](int32_t node) { return marked[node]; }))
         volume += volume_of(block.type, cell_nodes(mesh, block, c));
   return volume;
 }
@@ -102,7 +102,7 @@ PoorCells find_poor_cells(const Mesh& mesh, const QualityReport& quality,
       if (is_below(cell, kQualityFloor)) {
         ++poor.below_floor;
         far_below += volume_of(block.type, x);
-        for (const int32_t node : block.nodes.row(c)) far[static_cast<size_t>(node)] = true;
+        for (const int32_t node : block.nodes.row(c)) far[node] = true;
       }
       indices.emplace_back(static_cast<int32_t>(b), static_cast<int32_t>(c));
     }

@@ -63,9 +63,9 @@ struct EdgeEnd {
 int next_corner(const CellFace& face, int here, int other) {
   const int n = traits(face.type).corners;
   for (int i = 0; i < n; ++i) {
-    if (face.nodes[static_cast<size_t>(i)] != here) continue;
-    const int next = face.nodes[static_cast<size_t>((i + 1) % n)];
-    return next == other ? face.nodes[static_cast<size_t>((i + n - 1) % n)] : next;
+    if (face.nodes[i] != here) continue;
+    const int next = face.nodes[(i + 1) % n];
+    return next == other ? face.nodes[(i + n - 1) % n] : next;
   }
   return -1;
 }
@@ -73,8 +73,7 @@ int next_corner(const CellFace& face, int here, int other) {
 bool holds(const CellFace& face, int a, int b) {
   const int n = traits(face.type).corners;
   for (int i = 0; i < n; ++i) {
-    const int p = face.nodes[static_cast<size_t>(i)],
-              q = face.nodes[static_cast<size_t>((i + 1) % n)];
+    const int p = face.nodes[i], q = face.nodes[(i + 1) % n];
     if ((p == a && q == b) || (p == b && q == a)) return true;
   }
   return false;
@@ -104,11 +103,10 @@ double angle_at(const EdgeEnd& end, const CellNodes& x) {
 const std::vector<EdgeEnd>& ends_of(CellType type) {
   static const auto all = [] {
     std::array<std::vector<EdgeEnd>, kCellTypes> ends;
-    for (int t = 0; t < kCellTypes; ++t)
-      ends[static_cast<size_t>(t)] = edge_ends(static_cast<CellType>(t));
+    for (int t = 0; t < kCellTypes; ++t) ends[t] = edge_ends(static_cast<CellType>(t));
     return ends;
   }();
-  return all[static_cast<size_t>(type)];
+  return all[type];
 }
 
 std::pair<double, double> extreme_angles(CellType type, const CellNodes& x) {

@@ -28,7 +28,7 @@ class Bows {
   bool halve(const CellBlock& block, Eigen::Index cell) {
     bool moved = false;
     for (int e = 0; e < 6; ++e) {
-      const auto [a, b] = kTetEdges[static_cast<size_t>(e)];
+      const auto [a, b] = kTetEdges[e];
       const int32_t node = block.nodes(cell, 4 + e);
       Bow& bow = bow_of(node, block.nodes(cell, a), block.nodes(cell, b));
       if (bow.halvings == kHalvings || !this_pass_.insert(node).second) continue;

@@ -28,13 +28,13 @@ class CurvedCells {
       const CellBlock& block = mesh.cells[b];
       for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
         for (Eigen::Index i = 0; i < block.nodes.cols(); ++i) {
-          around_[static_cast<size_t>(block.nodes(c, i))].push_back({b, c});
+          around_[block.nodes(c, i)].push_back({b, c});
         }
       }
       Mesh alone;
       alone.cells = {block};
       for (const auto& entry : boundary_faces(alone)) {
-        for (int32_t node : entry.second.nodes()) fixed_[static_cast<size_t>(node)] = true;
+        for (int32_t node : entry.second.nodes()) fixed_[node] = true;
       }
     }
   }
@@ -61,7 +61,7 @@ class CurvedCells {
     const double size = std::cbrt(6.0 * std::abs(volume_of(tet_nodes(mesh_, block, id.second))));
     for (Eigen::Index i = block.nodes.cols() - 1; i >= 0 && ratio(id) < target; --i) {
       const int32_t node = block.nodes(id.second, i);
-      if (fixed_[static_cast<size_t>(node)]) continue;
+      if (fixed_[node]) continue;
       search_position(Node{mesh_.nodes, node}, kUnfoldFirstStep * size,
                       [&](double best) { return worst_around(node, best); });
     }
@@ -80,7 +80,7 @@ class CurvedCells {
   // ends the next one too.
   double worst_around(int32_t node, double best) {
     double worst = 1.0;
-    std::vector<CellId>& cells = around_[static_cast<size_t>(node)];
+    std::vector<CellId>& cells = around_[node];
     for (CellId& id : cells) {
       worst = std::min(worst, ratio(id));
       if (worst > best) continue;

@@ -31,7 +31,7 @@ sparse::ModeSet solve_shared(const ranks::Ranks& all, const std::filesystem::pat
   const ranks::SharedPencil pencil(all, shares, matrices.K, matrices.M, ranks::Extent::kInterior);
   std::vector<int32_t> own;  // places in `left` of the own rows
   for (const int64_t row : shares.rows_of(all.rank(), false))
-    own.push_back(numbering.stored.permutation[static_cast<size_t>(row)]);
+    own.push_back(numbering.stored.permutation[row]);
   // Matrices imported without positions have no known rigid-body motions.
   if ((model.rigid.colwise().squaredNorm().array() > 0.0).all()) {
     const fe::FreeMotions free =

@@ -29,7 +29,7 @@ std::vector<RowMatrix> group_flows(const FlowMap& flow, const IndexMatrix& trian
                                    Eigen::Index n_v) {
   std::vector<int32_t> place(static_cast<size_t>(T.rows() / 3), -1), nodes;
   for (const int32_t face : flow.face)
-    for (int a = 0; a < 6; ++a) place[static_cast<size_t>(triangles(face, a))] = 0;
+    for (int a = 0; a < 6; ++a) place[triangles(face, a)] = 0;
   for (size_t node = 0; node < place.size(); ++node) {
     if (place[node] < 0) continue;
     place[node] = static_cast<int32_t>(nodes.size());
@@ -40,12 +40,12 @@ std::vector<RowMatrix> group_flows(const FlowMap& flow, const IndexMatrix& trian
   // Each thread has columns of its own, so sums do not depend on their number.
   parallel_pieces(T.cols(), [&](int64_t begin, int64_t end) {
     for (size_t k = 0; k < flow.face.size(); ++k) {
-      const int32_t group = group_of_face[static_cast<size_t>(flow.face[k])];
+      const int32_t group = group_of_face[flow.face[k]];
       if (group < 0) continue;
-      auto sum = out[static_cast<size_t>(group)].row(flow.node[k]).segment(begin, end - begin);
+      auto sum = out[group].row(flow.node[k]).segment(begin, end - begin);
       const auto weight = flow.weight.row(static_cast<Eigen::Index>(k));
       for (int a = 0; a < 6; ++a) {
-        const int32_t node = place[static_cast<size_t>(triangles(flow.face[k], a))];
+        const int32_t node = place[triangles(flow.face[k], a)];
         for (int d = 0; d < 3; ++d)
           sum += weight[3 * a + d] * rows.row(3 * node + d).segment(begin, end - begin);
       }

@@ -30,14 +30,14 @@ MapErrors map_errors(const rom::Skin& skin, const sound::Surface& acoustic, cons
     nodal.middleRows(3 * n, 3) = rigid_motions(acoustic, skin.nodes.row(n));
   const Eigen::MatrixXd mapped = map.map * nodal;
   std::vector<char> is_lid(static_cast<size_t>(acoustic.face_count()), 0);
-  for (int32_t lid : map.lids) is_lid[static_cast<size_t>(lid)] = 1;
+  for (int32_t lid : map.lids) is_lid[lid] = 1;
   double difference = 0.0, size = 0.0;
   Eigen::RowVectorXd through = Eigen::RowVectorXd::Zero(6);
   for (Eigen::Index c = 0; c < acoustic.face_count(); ++c) {
     const auto corners = mapped.middleRows(3 * c, 3);
     const Eigen::RowVectorXd mean = corners.colwise().mean();
     through += acoustic.face_area[c] * mean;
-    if (is_lid[static_cast<size_t>(c)]) continue;
+    if (is_lid[c]) continue;
     const Eigen::RowVectorXd exact =
         acoustic.face_normal.row(c) * rigid_motions(acoustic, acoustic.face_centre.row(c));
     difference += acoustic.face_area[c] * (mean - exact).squaredNorm();

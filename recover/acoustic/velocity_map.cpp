@@ -48,14 +48,13 @@ std::vector<Sample> exposed_samples(const rom::Skin& skin, const std::vector<boo
                                     const sound::Surface& acoustic) {
   std::vector<Sample> samples;
   for (int32_t face = 0; face < skin.triangles.rows(); ++face)
-    if (exposed[static_cast<size_t>(face)])
-      add_samples(skin, face, acoustic.mean_edge / 5.0, samples);
+    if (exposed[face]) add_samples(skin, face, acoustic.mean_edge / 5.0, samples);
   if (samples.empty())
     throw InputError("acoustic skin: found no exposed face, expected at least one");
   const LandingSearch search(acoustic);
   parallel_pieces(static_cast<int64_t>(samples.size()), [&](int64_t begin, int64_t end) {
     for (int64_t p = begin; p < end; ++p) {
-      Sample& sample = samples[static_cast<size_t>(p)];
+      Sample& sample = samples[p];
       sample.landing = search.land(sample.at, sample.area_vector.normalized());
     }
   });

@@ -54,11 +54,11 @@ void SkinWriter::write(H5File& file, const Eigen::MatrixXd& reduced,
   expand(T_, reduced, block, [&](int64_t row, int64_t first, const Eigen::MatrixXd& u) {
     parallel_pieces(u.cols(), [&](int64_t begin, int64_t end) {
       for (int64_t c = begin; c < end; ++c)
-        if (const Eigen::Index number = numbers[static_cast<size_t>(first + c)]; number >= 0)
+        if (const Eigen::Index number = numbers[first + c]; number >= 0)
           normals.col(number).noalias() += face_normal_.middleCols(row, u.rows()) * u.col(c);
     });
     for (int64_t c = 0; c < u.cols(); ++c)
-      if (const std::string& name = columns[static_cast<size_t>(first + c)].vectors; !name.empty())
+      if (const std::string& name = columns[first + c].vectors; !name.empty())
         write_nodes(file, name, row, u.col(c), single, buffer);
     file.begin_disk_writes();
     if (report) report(static_cast<double>(u.size()) * share);

@@ -22,9 +22,8 @@ std::array<double, kTaps> weights(double at) {
   for (int k = 0; k < kTaps; ++k) {
     const double x = at - k, edge = x / kHalfWidth, pi_x = std::numbers::pi * x;
     const double sinc = std::abs(pi_x) < 1e-9 ? 1.0 : std::sin(pi_x) / pi_x;
-    h[static_cast<size_t>(k)] =
-        sinc * std::cyl_bessel_i(0.0, kKaiserBeta * std::sqrt(std::max(1.0 - edge * edge, 0.0)));
-    sum += h[static_cast<size_t>(k)];
+    h[k] = sinc * std::cyl_bessel_i(0.0, kKaiserBeta * std::sqrt(std::max(1.0 - edge * edge, 0.0)));
+    sum += h[k];
   }
   for (double& value : h) value /= sum;
   return h;
@@ -52,12 +51,12 @@ double interpolate(const Eigen::VectorXd& x_i, const Eigen::VectorXd& y_i, doubl
   const Eigen::Index above = std::lower_bound(x_i.begin(), x_i.end(), x) - x_i.begin();
   const Eigen::Index first = std::clamp<Eigen::Index>(above - n / 2, 0, x_i.size() - n);
   std::array<double, kPoints> p{};
-  for (Eigen::Index i = 0; i < n; ++i) p[static_cast<size_t>(i)] = y_i[first + i];
+  for (Eigen::Index i = 0; i < n; ++i) p[i] = y_i[first + i];
   for (Eigen::Index m = 1; m < n; ++m)
     for (Eigen::Index i = 0; i + m < n; ++i) {
       const double left = x_i[first + i], right = x_i[first + i + m];
-      double& at = p[static_cast<size_t>(i)];
-      at = ((x - right) * at + (left - x) * p[static_cast<size_t>(i + 1)]) / (left - right);
+      double& at = p[i];
+      at = ((x - right) * at + (left - x) * p[i + 1]) / (left - right);
     }
   return p[0];
 }

@@ -12,7 +12,7 @@ std::vector<bool> exposed_faces(const RowMatrix& nodes, const IndexMatrix& trian
   // For the rays, a curved face is four flat triangles.
   static constexpr int kQuarters[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
   std::vector<Triangle> flat;
-  flat.reserve(static_cast<size_t>(4 * triangles.rows()));
+  flat.reserve(4 * triangles.rows());
   for (Eigen::Index face = 0; face < triangles.rows(); ++face)
     for (const auto& quarter : kQuarters) {
       Triangle corners;
@@ -28,7 +28,7 @@ std::vector<bool> exposed_faces(const RowMatrix& nodes, const IndexMatrix& trian
       // The ray must not hit the face itself, whose flat approximation deviates by a part of its
       // size.
       const double clearance = 0.2 * std::sqrt(geometry.face_area[face]);
-      exposed[static_cast<size_t>(face)] =
+      exposed[face] =
           !tree.hits(geometry.face_centre.row(face), geometry.face_normal.row(face), clearance);
     }
   });

@@ -40,7 +40,7 @@ std::vector<bool> on_surfaces(const PanelRule& rule, const SurfaceFaces& surface
   std::vector<bool> chosen(count, false);
   for (const std::string& name : rule.surfaces)
     for (int32_t face : find_named(surfaces, owner, "surface of the skin", name))
-      chosen[static_cast<size_t>(face)] = true;
+      chosen[face] = true;
   return chosen;
 }
 
@@ -92,9 +92,8 @@ std::vector<Panel> choose_panels(const std::vector<PanelRule>& rules, const RowM
     Panel panel{.name = rule.name};
     const std::vector<bool> chosen = on_surfaces(rule, surfaces, exposed.size());
     for (int32_t face = 0; face < triangles.rows(); ++face)
-      if (chosen[static_cast<size_t>(face)] &&
-          accepts(rule, geometry.face_normal.row(face), geometry.face_centre.row(face),
-                  exposed[static_cast<size_t>(face)])) {
+      if (chosen[face] && accepts(rule, geometry.face_normal.row(face),
+                                  geometry.face_centre.row(face), exposed[face])) {
         panel.faces.push_back(face);
         panel.area += geometry.face_area[face];
       }

@@ -22,7 +22,7 @@ struct Patch {
 std::vector<Patch> split_into_patches(const std::vector<Panel>& panels, int64_t n_faces) {
   std::vector<std::vector<size_t>> members(static_cast<size_t>(n_faces));
   for (size_t p = 0; p < panels.size(); ++p)
-    for (int32_t face : panels[p].faces) members[static_cast<size_t>(face)].push_back(p);
+    for (int32_t face : panels[p].faces) members[face].push_back(p);
   std::map<std::vector<size_t>, std::vector<int32_t>> by_membership;
   for (size_t face = 0; face < members.size(); ++face)
     if (!members[face].empty()) by_membership[members[face]].push_back(static_cast<int32_t>(face));
@@ -106,7 +106,7 @@ Eigen::MatrixXd patch_form(const rom::Skin& skin, const rom::SkinRows& T,
         skin, T, std::span(faces).subspan(static_cast<size_t>(first), static_cast<size_t>(count)));
     parallel_pieces(threads, [&](int64_t begin, int64_t end) {
       for (int64_t t = begin; t < end; ++t) {
-        Eigen::MatrixXd& sum = lower[static_cast<size_t>(t)];
+        Eigen::MatrixXd& sum = lower[t];
         if (sum.size() == 0) sum = Eigen::MatrixXd::Zero(r, r);
         add_form(group, count * t / threads, count * (t + 1) / threads, sum);
       }

@@ -58,10 +58,10 @@ int RayTree::build(int first, int count) {
     for (int c = 0; c < 3; ++c) extent.extend(it->col(c));
     centres.extend(it->rowwise().mean());
   }
-  boxes_[static_cast<size_t>(index)].extent = extent;
+  boxes_[index].extent = extent;
   if (count <= kLeaf) {
-    boxes_[static_cast<size_t>(index)].first = first;
-    boxes_[static_cast<size_t>(index)].count = count;
+    boxes_[index].first = first;
+    boxes_[index].count = count;
     return index;
   }
   Eigen::Index longest;
@@ -71,8 +71,8 @@ int RayTree::build(int first, int count) {
   });
   const int left = build(first, count / 2);
   const int right = build(first + count / 2, count - count / 2);
-  boxes_[static_cast<size_t>(index)].left = left;
-  boxes_[static_cast<size_t>(index)].right = right;
+  boxes_[index].left = left;
+  boxes_[index].right = right;
   return index;
 }
 
@@ -82,11 +82,11 @@ bool RayTree::hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& directi
   const Eigen::Vector3d reciprocal = direction.cwiseInverse();
   std::vector<int> open{0};
   while (!open.empty()) {
-    const Box& box = boxes_[static_cast<size_t>(open.back())];
+    const Box& box = boxes_[open.back()];
     open.pop_back();
     if (!meets_box(box.extent, origin, reciprocal)) continue;
     for (int i = box.first; i < box.first + box.count; ++i)
-      if (meets_triangle(triangles_[static_cast<size_t>(i)], origin, direction, t_min)) return true;
+      if (meets_triangle(triangles_[i], origin, direction, t_min)) return true;
     if (box.left >= 0) open.insert(open.end(), {box.left, box.right});
   }
   return false;

@@ -17,8 +17,7 @@ Sensor from_set(const std::string& name, const rom::DofSet& set, const rom::Redu
   const Eigen::Index channels = static_cast<Eigen::Index>(set.dofs.size());
   Sensor sensor{name, set.kind, set.labels, set.position, set.direction, set.is_rotation, {}};
   sensor.rows = Eigen::MatrixXd::Zero(channels, model.size());
-  for (Eigen::Index c = 0; c < channels; ++c)
-    sensor.rows.row(c) = model.row_of(set.dofs[static_cast<size_t>(c)]);
+  for (Eigen::Index c = 0; c < channels; ++c) sensor.rows.row(c) = model.row_of(set.dofs[c]);
   return sensor;
 }
 
@@ -53,7 +52,7 @@ Sensor from_point(const SensorRule& rule, const rom::Skin& skin, const rom::Skin
   sensor.rows.resize(channels, T.cols());
   sensor.is_rotation.assign(directions.size(), 0);
   for (Eigen::Index c = 0; c < channels; ++c) {
-    const Eigen::Vector3d& direction = directions[static_cast<size_t>(c)];
+    const Eigen::Vector3d& direction = directions[c];
     sensor.direction.row(c) = direction;
     sensor.rows.row(c) = direction.transpose() * rows;
   }

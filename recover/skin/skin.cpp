@@ -94,7 +94,7 @@ NormalSamples normal_samples(const RowMatrix& nodes, const IndexMatrix& triangle
   samples.weight.resize(6 * (end - begin));
   int32_t row = 0;
   for (int64_t k = begin; k < end; ++k) {
-    const int32_t face = faces[static_cast<size_t>(k)];
+    const int32_t face = faces[k];
     for (const FacePoint& point : face_points(face_coordinates(nodes, triangles, face))) {
       const double dS = point.area_vector.norm();
       const Eigen::Vector3d normal = point.area_vector / dS;

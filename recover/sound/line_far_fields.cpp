@@ -31,7 +31,7 @@ Eigen::MatrixXcd part_flows(const LineSpectrum& velocity, Eigen::Index first, Ei
       velocity.amplitude.middleRows(first, count).imag().transpose();
   Eigen::MatrixXcd out(parts > 0 ? flows.front().rows() : 0, count * parts);
   for (Eigen::Index p = 0; p < parts; ++p) {
-    const Eigen::MatrixXd product = flows[static_cast<size_t>(p)] * v;
+    const Eigen::MatrixXd product = flows[p] * v;
     for (Eigen::Index k = 0; k < count; ++k) {
       out.col(k * parts + p).real() = product.col(k);
       out.col(k * parts + p).imag() = product.col(count + k);
@@ -79,8 +79,7 @@ void add_sample(double to_power, const LineSpectrum& velocity, const SampleLines
     const double weight = velocity.power_factor[k] * of.weight[i];
     const auto f = F.middleCols(column * parts, parts);
     const Eigen::MatrixXd re = f.real(), im = f.imag();
-    sums.exchange[static_cast<size_t>(k)] +=
-        weight * to_power * (re.transpose() * re + im.transpose() * im);
+    sums.exchange[k] += weight * to_power * (re.transpose() * re + im.transpose() * im);
     sums.power[k] += weight * to_power * f.rowwise().sum().squaredNorm();
     sums.mean_square.row(k) += weight * squares.col(column).transpose();
   }
@@ -94,7 +93,7 @@ PanelParts panel_parts(const SoundTable& table, const IndexMatrix& triangles,
   std::vector<std::vector<char>> member(static_cast<size_t>(n_f),
                                         std::vector<char>(panels.size(), 0));
   for (size_t p = 0; p < panels.size(); ++p)
-    for (int32_t face : panels[p].faces) member[static_cast<size_t>(face)][p] = 1;
+    for (int32_t face : panels[p].faces) member[face][p] = 1;
   std::map<std::vector<char>, int32_t> number;
   std::vector<int32_t> part_of_face(static_cast<size_t>(n_f), -1);
   for (int32_t face : table.flow.face) {
@@ -103,9 +102,8 @@ PanelParts panel_parts(const SoundTable& table, const IndexMatrix& triangles,
           fmt::format("sound: flow/face: found face {}, expected 0 to {}, those of "
                       "the reduced model",
                       face, n_f - 1));
-    part_of_face[static_cast<size_t>(face)] =
-        number.try_emplace(member[static_cast<size_t>(face)], static_cast<int32_t>(number.size()))
-            .first->second;
+    part_of_face[face] =
+        number.try_emplace(member[face], static_cast<int32_t>(number.size())).first->second;
   }
   PanelParts out;
   for (const Panel& panel : panels) out.panels.push_back(panel.name);
@@ -137,10 +135,9 @@ ThirdOctaves bands_of_table(const SoundTable& table, const Analysis& analysis,
 LineSums line_sums(const SoundTable& table, const LineSpectrum& velocity, const PanelParts& parts,
                    const Eigen::MatrixXd& harmonics) {
   const Eigen::Index lines = lines_of_table(table, velocity), n = parts.belongs.rows();
-  LineSums out{
-      Eigen::VectorXd::Zero(lines),
-      std::vector<Eigen::MatrixXd>(static_cast<size_t>(lines), Eigen::MatrixXd::Zero(n, n)),
-      Eigen::MatrixXd::Zero(lines, harmonics.rows())};
+  LineSums out{Eigen::VectorXd::Zero(lines),
+               std::vector<Eigen::MatrixXd>(lines, Eigen::MatrixXd::Zero(n, n)),
+               Eigen::MatrixXd::Zero(lines, harmonics.rows())};
   const double to_power = sound::power_of_far_field(table.space());
   for (Eigen::Index first = 0; first < lines; first += kLinesAtOnce) {
     const Eigen::Index count = std::min(kLinesAtOnce, lines - first);

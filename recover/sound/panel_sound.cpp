@@ -18,11 +18,10 @@ std::vector<Eigen::MatrixXd> band_exchange(const LineSpectrum& velocity, const T
   Eigen::VectorXd line(n_l);
   for (Eigen::Index a = 0; a < n; ++a)
     for (Eigen::Index b = 0; b < n; ++b) {
-      for (Eigen::Index k = 0; k < n_l; ++k) line[k] = lines[static_cast<size_t>(k)](a, b);
+      for (Eigen::Index k = 0; k < n_l; ++k) line[k] = lines[k](a, b);
       const Eigen::VectorXd sums =
           band_sums(velocity.frequency_hz.head(n_l), line, bands, velocity.periodic);
-      for (Eigen::Index band = 0; band < bands.size(); ++band)
-        out[static_cast<size_t>(band)](a, b) = sums[band];
+      for (Eigen::Index band = 0; band < bands.size(); ++band) out[band](a, b) = sums[band];
     }
   return out;
 }
@@ -42,7 +41,7 @@ PanelSound panel_sound(const Analysis& analysis, const PanelParts& parts, LineSu
                  .total_a = Eigen::VectorXd::Zero(n_p)};
   double largest = 0.0;
   for (Eigen::Index k = 0; k < lines; ++k) {
-    Eigen::MatrixXd& E = sums.exchange[static_cast<size_t>(k)];
+    Eigen::MatrixXd& E = sums.exchange[k];
     largest = std::max(largest, std::abs(E.sum() - sums.power[k]));
     out.power.row(k) = E.rowwise().sum().transpose() * parts.belongs;
     E = (parts.belongs.transpose() * E * parts.belongs).eval();

@@ -40,7 +40,7 @@ class Sampler {
         source_(sound::inner_point(sound.skin)) {
     points_.resize(static_cast<Eigen::Index>(sound.table.microphones.size()), 3);
     for (Eigen::Index m = 0; m < points_.rows(); ++m)
-      points_.row(m) = sound.table.microphones[static_cast<size_t>(m)].position.transpose();
+      points_.row(m) = sound.table.microphones[m].position.transpose();
   }
 
   SoundSample operator()(double frequency_hz) {
@@ -160,7 +160,7 @@ Eigen::VectorXd squares(const sound::Surface& skin, const Eigen::MatrixXd& veloc
 Eigen::MatrixXd efficiencies(const SoundTable& table, const Eigen::VectorXd& squares) {
   Eigen::MatrixXd sigma(table.samples.size(), squares.size());
   for (Eigen::Index i = 0; i < sigma.rows(); ++i) {
-    const Eigen::MatrixXd& R = table.samples[static_cast<size_t>(i)].R;
+    const Eigen::MatrixXd& R = table.samples[i].R;
     for (Eigen::Index j = 0; j < squares.size(); ++j)
       sigma(i, j) = squares[j] > 0.0 ? R(j, j) / (table.fluid.impedance() * squares[j]) : 0.0;
   }

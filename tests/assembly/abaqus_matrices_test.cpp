@@ -35,7 +35,7 @@ double worst_difference(const SparseMatrix& ours, const Entries& theirs,
     for (SparseMatrix::InnerIterator it(ours, c); it; ++it) {
       const auto found = theirs.find((it.row() << 20) + c);
       met += found != theirs.end() ? 1 : 0;
-      if (held[static_cast<size_t>(it.row())] || held[static_cast<size_t>(c)]) continue;
+      if (held[it.row()] || held[c]) continue;
       const double other = found != theirs.end() ? found->second : 0.0;
       worst = std::max(worst, std::abs(it.value() - other));
       largest = std::max(largest, std::abs(other));
@@ -54,12 +54,12 @@ class AbaqusBeam : public ::testing::Test {
     ASSERT_EQ(mesh_.nodes.rows(), 518);
     ASSERT_EQ(mesh_.cells[0].nodes.rows(), 233);
     for (int32_t n = 0; n < 518; ++n)  // so that rows are Abaqus' rows
-      ASSERT_TRUE(mesh_.node_ids.empty() || mesh_.node_ids[static_cast<size_t>(n)] == n + 1);
+      ASSERT_TRUE(mesh_.node_ids.empty() || mesh_.node_ids[n] == n + 1);
     matrices_ = fe::assemble(mesh_, materials_of(mesh_, kAbaqusSteel), fe::node_pattern(mesh_));
     held_.assign(3 * 518, false);
     ASSERT_EQ(mesh_.node_sets.at("fixed").size(), 9U);
     for (const int32_t node : mesh_.node_sets.at("fixed"))
-      for (int d = 0; d < 3; ++d) held_[static_cast<size_t>(3 * node + d)] = true;
+      for (int d = 0; d < 3; ++d) held_[3 * node + d] = true;
   }
   mesh::Mesh mesh_;
   fe::NodalMatrices matrices_;
@@ -82,7 +82,7 @@ TEST_F(AbaqusBeam, FrequenciesAgree) {
   SparseMatrix keep(3 * 518, 3 * (518 - 9));
   int32_t next = 0;
   for (int32_t dof = 0; dof < 3 * 518; ++dof)
-    if (!held_[static_cast<size_t>(dof)]) entries.emplace_back(dof, next++, 1.0);
+    if (!held_[dof]) entries.emplace_back(dof, next++, 1.0);
   keep.setFromTriplets(entries.begin(), entries.end());
   const auto reduce = [&](const SparseMatrix& lower) {
     const SparseMatrix both = lower.selfadjointView<Eigen::Lower>();

@@ -39,7 +39,7 @@ std::vector<std::vector<Lattice>> tetrahedra(const Lattice& low) {
     std::vector<Lattice> cell = {low};
     for (size_t s = 0; s < 3; ++s) {
       cell.push_back(cell.back());
-      cell.back()[static_cast<size_t>(kWalks[w][s])] += 4;
+      cell.back()[kWalks[w][s]] += 4;
     }
     if (w >= 3) std::swap(cell[2], cell[3]);  // odd permutations reverse the orientation
     cells.push_back(cell);
@@ -88,8 +88,7 @@ std::vector<std::string> sides_of(const mesh::CellFace& face, const std::vector<
     for (int end = 0; end < 2; ++end) {
       bool on = true;
       for (int v = 0; v < mesh::traits(face.type).corners; ++v)
-        on = on && corners[static_cast<size_t>(face.nodes[static_cast<size_t>(v)])][axis] ==
-                       end * 4 * n[axis];
+        on = on && corners[face.nodes[v]][axis] == end * 4 * n[axis];
       if (on) sides.emplace_back(names[axis][end]);
     }
   return sides;
@@ -113,12 +112,11 @@ mesh::Mesh block_mesh(const std::array<int, 3>& n, const Map& map, const BlockOp
     for (const Lattice& corner : corners) cell.push_back(number.of(corner));
     if (traits.order == 2)
       for (const auto& [a, b] : traits.edges)
-        cell.push_back(
-            number.of(middle(corners[static_cast<size_t>(a)], corners[static_cast<size_t>(b)])));
+        cell.push_back(number.of(middle(corners[a], corners[b])));
     for (const mesh::CellFace& face : traits.faces) {
       std::array<int32_t, mesh::kMaxFaceNodes> ids{};
       for (size_t v = 0; v < static_cast<size_t>(mesh::traits(face.type).nodes); ++v)
-        ids[v] = cell[static_cast<size_t>(face.nodes[v])];
+        ids[v] = cell[face.nodes[v]];
       for (const std::string& side : sides_of(face, corners, n, options.wrap_x)) {
         sides[side].add(face.type, ids);
         sides["skin"].add(face.type, ids);
@@ -140,8 +138,8 @@ mesh::Mesh block_mesh(const std::array<int, 3>& n, const Map& map, const BlockOp
     for (const auto& cell : cells)
       for (size_t e = 0; e < traits.edges.size(); ++e)
         mesh.nodes.row(cell[static_cast<size_t>(traits.corners) + e]) =
-            0.5 * (mesh.nodes.row(cell[static_cast<size_t>(traits.edges[e][0])]) +
-                   mesh.nodes.row(cell[static_cast<size_t>(traits.edges[e][1])]));
+            0.5 *
+            (mesh.nodes.row(cell[traits.edges[e][0]]) + mesh.nodes.row(cell[traits.edges[e][1]]));
   return mesh;
 }
 
@@ -167,7 +165,7 @@ Map shaken_brick(const Eigen::Vector3d& size, const std::array<int, 3>& n, doubl
     std::uniform_real_distribution<double> uniform(-share, share);
     Eigen::Vector3d moved = x;
     for (int d = 0; d < 3; ++d) {
-      const double step = uniform(generator) / n[static_cast<size_t>(d)];
+      const double step = uniform(generator) / n[d];
       if (x(d) > 1e-9 && x(d) < 1.0 - 1e-9) moved(d) += step;
     }
     return moved.cwiseProduct(size);

@@ -40,7 +40,7 @@ TEST(Cluster, GroupsDoNotDependOnTheNumbersOfTheNodes) {
   for (int trial = 0; trial < 5; ++trial) {
     std::shuffle(order.begin(), order.end(), random);
     RowMatrix renumbered(81, 3);
-    for (int n = 0; n < 81; ++n) renumbered.row(n) = grid.row(order[static_cast<size_t>(n)]);
+    for (int n = 0; n < 81; ++n) renumbered.row(n) = grid.row(order[n]);
     EXPECT_EQ(groups_of(renumbered, 12), expected);
   }
 }

@@ -23,7 +23,7 @@ TEST(RigidCoupling, FollowsItsReferenceLikeALever) {
   const RowMatrix nodes = (RowMatrix(1, 3) << 1.0, 2.0, 0.0).finished();
   const DofNumbers numbers(nodes, points);
   ReferenceDofs reference;
-  for (int d = 0; d < 6; ++d) reference.ids[static_cast<size_t>(d)] = numbers.of_point(0, d);
+  for (int d = 0; d < 6; ++d) reference.ids[d] = numbers.of_point(0, d);
   reference.position = points[0].position;
   const auto rows = rigid_dependences(numbers, NodeOrPoint::of_node(0), {0, 1, 2, 3}, reference);
   ASSERT_EQ(rows.size(), 3u);  // a node has no rotation
@@ -48,7 +48,7 @@ point = [0.3, 0.0, 0.5]
   const std::vector<ReferencePoint> points = {{"hub", {0.3, 0.0, 0.5}, -1}};
   const DofNumbers numbers(mesh.nodes, points);
   ReferenceDofs reference;
-  for (int d = 0; d < 6; ++d) reference.ids[static_cast<size_t>(d)] = numbers.of_point(0, d);
+  for (int d = 0; d < 6; ++d) reference.ids[d] = numbers.of_point(0, d);
   reference.position = points[0].position;
   Saddle saddle(mesh, 1);
   hold_foot(mesh, saddle);
@@ -60,13 +60,11 @@ point = [0.3, 0.0, 0.5]
   const Eigen::VectorXd want = saddle.solve(f);
   // The reference is a set here and no point: its forces act on the set's coordinates.
   Eigen::VectorXd q_forces = model.T.transpose() * f.head(numbers.nodal());
-  for (int d = 0; d < 6; ++d)
-    q_forces(model.set("hub").dofs[static_cast<size_t>(d)]) += f(numbers.nodal() + d);
+  for (int d = 0; d < 6; ++d) q_forces(model.set("hub").dofs[d]) += f(numbers.nodal() + d);
   const Eigen::VectorXd q = dense::Cholesky(full(model.K)).solve(q_forces);
   EXPECT_LT((model.T * q - want.head(numbers.nodal())).norm(), kSolve * want.norm());
   for (int d = 0; d < 6; ++d)
-    EXPECT_NEAR(q(model.set("hub").dofs[static_cast<size_t>(d)]), want(numbers.nodal() + d),
-                kSolve * want.norm());
+    EXPECT_NEAR(q(model.set("hub").dofs[d]), want(numbers.nodal() + d), kSolve * want.norm());
 }
 
 TEST(DistributingCoupling, OfWeightedNodesByHand) {
@@ -166,8 +164,7 @@ TEST_P(ChainInOrder, EqualsTheMultipliers) {
   hold_foot(mesh, saddle);
   const auto couple = [&](const std::vector<Member>& members, int32_t point,
                           const std::vector<int>& directions) {
-    const Coupling coupling =
-        distribute(members, points[static_cast<size_t>(point)].position, directions, "test");
+    const Coupling coupling = distribute(members, points[point].position, directions, "test");
     const std::vector<Functional> rows = coupling.nodal_rows();
     for (size_t k = 0; k < rows.size(); ++k)
       saddle.add(Dependence{numbers.of_point(point, directions[k]), rows[k]});
@@ -175,7 +172,7 @@ TEST_P(ChainInOrder, EqualsTheMultipliers) {
   couple(members_of(mesh.nodes, integrate_surface(mesh.nodes, mesh.surface("z1"))), 0,
          {0, 1, 2, 3, 4, 5});
   ReferenceDofs p1;
-  for (int d = 0; d < 6; ++d) p1.ids[static_cast<size_t>(d)] = numbers.of_point(0, d);
+  for (int d = 0; d < 6; ++d) p1.ids[d] = numbers.of_point(0, d);
   p1.position = points[0].position;
   for (const auto& row :
        rigid_dependences(numbers, NodeOrPoint::of_point(1), {0, 1, 2, 3, 4, 5}, p1))

@@ -171,15 +171,15 @@ TEST_P(DistributingCouplingOn, ASolveInGeneralisedCoordinatesEqualsTheNodalOne) 
   const fe::NodalMatrices nodal = fe::assemble(mesh, materials_of(mesh), fe::node_pattern(mesh));
   std::vector<bool> fixed(static_cast<size_t>(n), false);
   for (const int32_t node : mesh::nodes_of(mesh.surface("z0")))
-    for (int d = 0; d < 3; ++d) fixed[static_cast<size_t>(3 * node + d)] = true;
+    for (int d = 0; d < 3; ++d) fixed[3 * node + d] = true;
   Eigen::VectorXd f_c(13);
-  for (Eigen::Index k = 0; k < 13; ++k) f_c(k) = f(dofs[static_cast<size_t>(k)]);
+  for (Eigen::Index k = 0; k < 13; ++k) f_c(k) = f(dofs[k]);
   const Eigen::VectorXd want =
       solve_fixed(nodal.K, C.transpose() * f_c, fixed, Eigen::VectorXd::Zero(n));
   // The condition of K times rounding: 1e6 * 1e-16, with a margin of two digits.
   EXPECT_LT((u - want).norm(), 1e-8 * want.norm());
   Eigen::VectorXd q_c(13);
-  for (Eigen::Index k = 0; k < 13; ++k) q_c(k) = q(dofs[static_cast<size_t>(k)]);
+  for (Eigen::Index k = 0; k < 13; ++k) q_c(k) = q(dofs[k]);
   EXPECT_LT((q_c - C * want).norm(), 1e-8 * q_c.norm());
 }
 

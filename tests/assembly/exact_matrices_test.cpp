@@ -59,7 +59,7 @@ double mean(const Polynomial& a) {
 std::vector<Polynomial> quadratic_shapes() {
   const auto L = [](int i) {
     Exponents one{};
-    one[static_cast<size_t>(i)] = 1;
+    one[i] = 1;
     return Polynomial{{one, 1.0}};
   };
   std::vector<Polynomial> shapes;
@@ -95,7 +95,7 @@ DensePencil exact_matrices(const mesh::Mesh& mesh, const fe::Material& material)
   DensePencil out{Eigen::MatrixXd::Zero(size, size), Eigen::MatrixXd::Zero(size, size)};
   for (const std::vector<int32_t>& cell : test::listed_cells(mesh)) {
     Eigen::Matrix4d corners;  // rows (1, x, y, z): L = (1, x) corners^-1
-    for (int i = 0; i < 4; ++i) corners.row(i) << 1.0, mesh.nodes.row(cell[static_cast<size_t>(i)]);
+    for (int i = 0; i < 4; ++i) corners.row(i) << 1.0, mesh.nodes.row(cell[i]);
     const Eigen::Matrix<double, 3, 4> gradient = corners.inverse().bottomRows<3>();
     const double volume = corners.determinant() / 6.0;
     for (size_t a = 0; a < 10; ++a)
@@ -120,9 +120,9 @@ class BeamOfADeck : public ::testing::Test {
     ours_ = fe::assemble(mesh_, materials_of(mesh_, kBeamSteel), fe::node_pattern(mesh_));
     exact_ = exact_matrices(mesh_, kBeamSteel);
     std::vector<bool> held(static_cast<size_t>(mesh_.nodes.rows()), false);
-    for (const int32_t node : mesh_.node_sets.at("fixed")) held[static_cast<size_t>(node)] = true;
+    for (const int32_t node : mesh_.node_sets.at("fixed")) held[node] = true;
     for (int dof = 0; dof < 3 * mesh_.nodes.rows(); ++dof)
-      if (!held[static_cast<size_t>(dof / 3)]) free_.push_back(dof);
+      if (!held[dof / 3]) free_.push_back(dof);
   }
   mesh::Mesh mesh_;
   fe::NodalMatrices ours_;

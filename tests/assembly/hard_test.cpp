@@ -88,11 +88,10 @@ TEST(AssemblyHard, HardE3_CouplingsOneByOneEqualAllAtOnce) {
     const Eigen::MatrixXd T = e.T;
     for (int g = 0; g < 3; ++g) {
       Eigen::RowVectorXd c = Eigen::RowVectorXd::Zero(40);
-      const Functional& row = model.coupling.rows[static_cast<size_t>(g)];
+      const Functional& row = model.coupling.rows[g];
       for (size_t k = 0; k < row.dofs.size(); ++k) c(row.dofs[k]) = row.values[k];
       // C T must be the unit row of the coordinate.
-      const Eigen::RowVectorXd unit =
-          Eigen::RowVectorXd::Unit(e.size(), e.reduced_of[static_cast<size_t>(40 + g)]);
+      const Eigen::RowVectorXd unit = Eigen::RowVectorXd::Unit(e.size(), e.reduced_of[40 + g]);
       EXPECT_LT((c * T - unit).cwiseAbs().maxCoeff(), 1e-12 * T.cwiseAbs().maxCoeff());
     }
   }

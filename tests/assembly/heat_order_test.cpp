@@ -38,8 +38,7 @@ double cube_error(CellType type, int cells) {
                           q(nodes(c, a)) += dm * N(a) * hill(x);
                       });
   std::vector<bool> fixed(static_cast<size_t>(n), false);
-  for (const int32_t node : mesh::nodes_of(mesh.surface("skin")))
-    fixed[static_cast<size_t>(node)] = true;
+  for (const int32_t node : mesh::nodes_of(mesh.surface("skin"))) fixed[node] = true;
   const Eigen::VectorXd T = solve_fixed(K, q, fixed, Eigen::VectorXd::Zero(n));
   double square = 0.0;
   for_each_mass_point(mesh, mesh.cells[0], 1.0,

@@ -32,7 +32,7 @@ inline Eigen::Vector3d first_moment(mesh::CellType type, const mesh::CellNodes& 
   for (const mesh::CellFace& face : mesh::traits(type).faces) {
     const int n = mesh::traits(face.type).nodes;
     Eigen::MatrixXd nodes(n, 3);
-    for (int i = 0; i < n; ++i) nodes.row(i) = x.row(face.nodes[static_cast<size_t>(i)]);
+    for (int i = 0; i < n; ++i) nodes.row(i) = x.row(face.nodes[i]);
     // Degree 2 + 2 + (2 + 2) - 2 along a side at most: below the rules' 7.
     const mesh::FaceRule& rule = mesh::face_rule(face.type);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {

@@ -85,7 +85,7 @@ Errors errors_at(int cells, mesh::CellType type) {
                       });
   std::vector<bool> fixed(static_cast<size_t>(n), false);
   for (const int32_t node : mesh::nodes_of(mesh.surface("skin")))
-    for (int d = 0; d < 3; ++d) fixed[static_cast<size_t>(3 * node + d)] = true;
+    for (int d = 0; d < 3; ++d) fixed[3 * node + d] = true;
   const Eigen::VectorXd u = solve_fixed(matrices.K, f, fixed, Eigen::VectorXd::Zero(n));
   double square = 0.0;
   for_each_mass_point(mesh, mesh.cells[0], 1.0,

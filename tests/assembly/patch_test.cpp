@@ -57,7 +57,7 @@ double patch_error(const mesh::Mesh& mesh, const Field& field,
   }
   std::vector<bool> fixed(static_cast<size_t>(n), false);
   for (const int32_t node : mesh::nodes_of(mesh.surface("skin")))
-    for (int d = 0; d < 3; ++d) fixed[static_cast<size_t>(3 * node + d)] = true;
+    for (int d = 0; d < 3; ++d) fixed[3 * node + d] = true;
   // A constant body force is M times a constant acceleration.
   const Eigen::VectorXd f = multiply_symmetric(matrices.M, body);
   const Eigen::VectorXd u = solve_fixed(matrices.K, f, fixed, exact);

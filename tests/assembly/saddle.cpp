@@ -36,10 +36,10 @@ Eigen::VectorXd Saddle::solve(const Eigen::VectorXd& f) const {
   Eigen::VectorXd b = Eigen::VectorXd::Zero(n_ + m);
   b.head(n_) = f / scale;
   for (Eigen::Index r = 0; r < m; ++r) {
-    const Functional& row = rows_[static_cast<size_t>(r)];
+    const Functional& row = rows_[r];
     for (size_t k = 0; k < row.dofs.size(); ++k)
       A(n_ + r, row.dofs[k]) = A(row.dofs[k], n_ + r) += row.values[k];
-    b(n_ + r) = values_[static_cast<size_t>(r)];
+    b(n_ + r) = values_[r];
   }
   // Unattached DoFs make A singular: the minimum norm solution is zero there, as without them.
   return dense::least_squares(A, b).X.col(0).head(n_);

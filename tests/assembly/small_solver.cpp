@@ -31,7 +31,7 @@ Eigen::VectorXd solve_fixed(const SparseMatrix& K, const Eigen::VectorXd& f,
   std::vector<Eigen::Triplet<double, int32_t>> entries;
   for (Eigen::Index c = 0; c < K.cols(); ++c)
     for (SparseMatrix::InnerIterator it(K, c); it; ++it) {
-      const int32_t i = index[static_cast<size_t>(it.row())], j = index[static_cast<size_t>(c)];
+      const int32_t i = index[it.row()], j = index[c];
       if (i >= 0 && j >= 0) entries.emplace_back(i, j, it.value());
     }
   SparseMatrix K_ii(n, n);

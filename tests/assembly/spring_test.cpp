@@ -92,7 +92,7 @@ terms = [ { point = "wall", direction = "x" },
                                 .model;
   int s = -1;
   for (int k = 0; k < model.supports.size(); ++k)
-    if (model.supports.set.labels[static_cast<size_t>(k)] == "wall.wall.x") s = k;
+    if (model.supports.set.labels[k] == "wall.wall.x") s = k;
   ASSERT_GE(s, 0) << model.supports.set.labels.back();
   EXPECT_EQ(model.supports.K_ss.coeff(s, s), 4.0e5);
   // A displacement of 1 at the spring's end alone.

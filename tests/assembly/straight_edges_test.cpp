@@ -48,8 +48,7 @@ mesh::Mesh cube_under_pyramid() {
   mesh.cells.push_back(cube);
   const mesh::CellTraits& pyramid = mesh::traits(CellType::kPyramid13);
   for (int e = 0; e < 8; ++e)
-    if (pyramid.edges[static_cast<size_t>(e)][0] < 4 &&
-        pyramid.edges[static_cast<size_t>(e)][1] < 4)
+    if (pyramid.edges[e][0] < 4 && pyramid.edges[e][1] < 4)
       mesh.node_sets[mesh::kHangingMidSideNodes].push_back(5 + e);
   mesh.surfaces["skin"] = mesh::skin_of(mesh::boundary_faces(mesh));
   return mesh;

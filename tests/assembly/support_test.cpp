@@ -169,13 +169,13 @@ system = "skew"
     // u of the node follows from its three coordinates; along the kept axes by these alone.
     const Eigen::RowVectorXd row = frame.col(axis).transpose() * T.middleRows(node, 3);
     Eigen::RowVectorXd unit = Eigen::RowVectorXd::Zero(model.size());
-    unit(set.dofs[static_cast<size_t>(k)]) = 1.0;
+    unit(set.dofs[k]) = 1.0;
     EXPECT_LT((row - unit).norm(), 1e-14);
   }
   const Eigen::MatrixXd hub = model.points.T;
   for (int d = 0; d < 6; ++d)
     EXPECT_LT((frame.col(d % 3).transpose() * hub.middleRows(d < 3 ? 0 : 3, 3) -
-               Eigen::RowVectorXd::Unit(model.size(), set.dofs[static_cast<size_t>(2 + d)]))
+               Eigen::RowVectorXd::Unit(model.size(), set.dofs[2 + d]))
                   .norm(),
               1e-14);
 }

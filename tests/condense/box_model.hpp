@@ -16,7 +16,7 @@ inline rom::DofSet node_set(const fe::FeModel& model, const std::string& name,
   const auto count = static_cast<Eigen::Index>(3 * nodes.size());
   set.position.resize(count, 3);
   set.direction = Eigen::MatrixXd::Zero(count, 3);
-  set.is_rotation.assign(static_cast<size_t>(count), 0);
+  set.is_rotation.assign(count, 0);
   Eigen::Index k = 0;
   for (const int node : nodes) {
     for (int d = 0; d < 3; ++d, ++k) {

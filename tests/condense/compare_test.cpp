@@ -131,7 +131,7 @@ TEST(Compare, MatrixOfMacIsNearlyTheIdentityAndHasThePairsOnItsDiagonal) {
   ASSERT_EQ(result.mac_matrix.rows(), n);
   ASSERT_EQ(result.mac_matrix.cols(), n);
   for (Eigen::Index j = 0; j < n; ++j) {
-    const modes::ComparedMode& pair = result.modes[static_cast<size_t>(j)];
+    const modes::ComparedMode& pair = result.modes[j];
     EXPECT_NEAR(result.mac_matrix(j, j), pair.mac, 1e-6);
     EXPECT_EQ(result.column_hz[j], pair.reduced_hz);
     Eigen::Index best = -1;

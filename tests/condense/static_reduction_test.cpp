@@ -97,9 +97,7 @@ TEST_P(StaticReductionTest, RowsOfOneCornerOfALargeTreeAreTheRowsOfTheShapes) {
   std::set<int32_t> on_paths;  // supernodes that these rows need
   const std::vector<int32_t> owners = tree.owners(), places = tree.inverse_order();
   for (const int32_t row : kept)
-    for (int32_t s = owners[static_cast<size_t>(places[static_cast<size_t>(row)])]; s >= 0;
-         s = tree.parent[static_cast<size_t>(s)])
-      on_paths.insert(s);
+    for (int32_t s = owners[places[row]]; s >= 0; s = tree.parent[s]) on_paths.insert(s);
   ASSERT_LT(4 * static_cast<int32_t>(on_paths.size()), tree.supernodes());
   for (const int threads : {1, 3}) {
     set_thread_count(threads);

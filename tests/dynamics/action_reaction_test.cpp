@@ -44,7 +44,7 @@ Motion12 random_motion(const Model& model, const SyntheticEngine& engine, unsign
   const std::vector<int>& contact = testing::cylinder_of(model).contact()->coordinates();
   const auto pin = std::find(contact.begin(), contact.end(), testing::cylinder_of(model).pin()[1]) -
                    contact.begin() - 1;
-  const auto y_of = [&](long k) -> double& { return at.y(contact[static_cast<size_t>(pin + k)]); };
+  const auto y_of = [&](long k) -> double& { return at.y(contact[pin + k]); };
   const rom::ReducedModel& block = engine.bodies[1].model;
   Eigen::Vector2d arm = block.grid("liner_4").axis_point.head<2>();
   if (!engine.cylinder.bore->liner_axial.empty())

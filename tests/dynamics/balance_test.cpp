@@ -48,7 +48,7 @@ Vector6 reactions(const EngineSpec& engine, const SliderCrank& crank, double mas
 
 /// Resultant of a load on its body, about the body's origin.
 Vector6 resultant(const Model& model, const Load& load, double t) {
-  const ModalBody& body = model.system.bodies()[static_cast<size_t>(load.body)];
+  const ModalBody& body = model.system.bodies()[load.body];
   return body.rigid.transpose() * load.direction * load.value(t);
 }
 
@@ -97,7 +97,7 @@ TEST(Balanced, HoldsForAPistonWhoseMassIsOffThePin) {
     Vector6 sum = Vector6::Zero();
     double size = 0.0, mass = 0.0;
     for (const Load& load : model->system.loads()) {
-      const std::string& body = model->system.bodies()[static_cast<size_t>(load.body)].name;
+      const std::string& body = model->system.bodies()[load.body].name;
       Vector6 one = resultant(*model, load, t);
       Eigen::Vector3d place = Eigen::Vector3d::Zero();
       if (body == "piston") {

@@ -138,7 +138,7 @@ TEST_F(PartMotion, InSpaceAPartMovesLikeTheFloatingBodyOfTheLibrary) {
   // The library's run starts 1e-7 s earlier, at up to 3 m/s.
   for (int k = 0; k < 3; ++k)
     EXPECT_NEAR(file.read_doubles(std::string("history/truss_") + axes[k]).back(),
-                method->state().y(body.coordinates[static_cast<size_t>(k)]), 1e-6);
+                method->state().y(body.coordinates[k]), 1e-6);
   const Eigen::Vector4d attitude = body.quaternion(method->state());
   const char* parts[] = {"w", "x", "y", "z"};
   double dot = 0.0;

@@ -40,7 +40,7 @@ MatrixXd motions_of_whole(const Model& model, double time) {
     if (frames.count(b) > 0)
       for (int k = 0; k < 3; ++k)
         motion.topRightCorner<3, 3>().col(k) = Vector3d::Unit(k).cross(frames.at(b));
-    const ModalBody& body = system.bodies()[static_cast<size_t>(b)];
+    const ModalBody& body = system.bodies()[b];
     motions.middleRows(system.mode_offset(b), body.modes()) = body.rigid * motion;
   }
   return motions;
@@ -190,7 +190,7 @@ class EngineMomentum : public ::testing::TestWithParam<Engine> {
     const System& system = model_->system;
     const int body = body_of(cylinder.name() + "_rod");
     const int at = system.mode_offset(body);
-    const ModalBody& modal = system.bodies()[static_cast<size_t>(body)];
+    const ModalBody& modal = system.bodies()[body];
     const Eigen::VectorXd dofs = modal.shapes * now.eta.segment(at, modal.modes());
     const double phi = cylinder.crank().rod_angle(now.time).position;
     const auto in_space = [](double angle, const Eigen::Vector2d& own) -> Eigen::Vector2d {

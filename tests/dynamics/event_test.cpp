@@ -86,7 +86,7 @@ TEST(Events, BallBouncesAtTheTimesOfTheoryAndComesToRest) {
   // What the impacts take is what was there: m g h.
   const auto& terms = energy.terms();
   const auto events = std::find(terms.begin(), terms.end(), "events") - terms.begin();
-  EXPECT_NEAR(energy.now().terms.at(static_cast<size_t>(events)), -9.81e-3, 1e-6);
+  EXPECT_NEAR(energy.now().terms.at(events), -9.81e-3, 1e-6);
 }
 
 TEST(Events, ImpactsThatAccumulateWithoutAModeForItEndTheRun) {

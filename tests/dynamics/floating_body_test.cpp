@@ -78,8 +78,8 @@ TEST(FloatingBody, TangentsAreTheDifferenceQuotientsOfTheForces) {
   const FloatingTruss one(octahedron(1e5), tumbling(1.0, 0.05, 12));
   const VectorXd y = arbitrary(22, 1), v = arbitrary(22, 2);
   std::vector<int> own(19), all(22);
-  for (int k = 0; k < 22; ++k) all[static_cast<size_t>(k)] = k;
-  for (int k = 0; k < 19; ++k) own[static_cast<size_t>(k)] = k;
+  for (int k = 0; k < 22; ++k) all[k] = k;
+  for (int k = 0; k < 19; ++k) own[k] = k;
   SpinElement spin("truss", own, one.floating.body.frame, arbitrary(19, 3), arbitrary(19, 4));
   EXPECT_LT(testing::tangent_error(spin, y.tail(19), v.tail(19)), 1e-8);
   const Matrix3X slope = Eigen::Map<const MatrixXd>(arbitrary(36, 5).eval().data(), 3, 12);

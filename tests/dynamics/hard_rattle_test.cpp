@@ -72,8 +72,8 @@ Rattle rattle(double loss_factor, double tolerance, int periods) {
 double difference(const std::vector<double>& a, int at_a, const std::vector<double>& b, int at_b) {
   double change = 0.0, all = 0.0;
   for (int k = 0; k < kSamples; ++k) {
-    const double one = a[static_cast<size_t>(at_a * kSamples + k)];
-    change += std::pow(one - b[static_cast<size_t>(at_b * kSamples + k)], 2);
+    const double one = a[at_a * kSamples + k];
+    change += std::pow(one - b[at_b * kSamples + k], 2);
     all += one * one;
   }
   return std::sqrt(change / all);

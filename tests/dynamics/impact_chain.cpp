@@ -40,9 +40,8 @@ ImpactChain::ImpactChain(const ImpactChainOptions& options) {
     links.push_back(system.coordinate(system.add_body(std::move(body)), 0));
   }
   for (int i = 0; i < n; ++i) {
-    system.add_element(std::make_unique<LinkContact>(
-        links[static_cast<size_t>(i)], links[static_cast<size_t>((i + 1) % n)], options.gap,
-        options.stiffness, options.damping));
+    system.add_element(std::make_unique<LinkContact>(links[i], links[(i + 1) % n], options.gap,
+                                                     options.stiffness, options.damping));
   }
 }
 

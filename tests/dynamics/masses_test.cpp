@@ -55,7 +55,7 @@ TEST(Masses, AGramAKilogramAndATonKeepTheirOwnAccuracyInOneScene) {
     Errors found;
     found.limit = static_cast<double>(method->statistics().accepted) * tolerance * 0.1;
     for (int k = 0; k < 3; ++k)
-      found.velocity(k) = std::abs(method->state().v_y(y[static_cast<size_t>(k)][0]) - expected(k));
+      found.velocity(k) = std::abs(method->state().v_y(y[k][0]) - expected(k));
     return found;
   };
   for (const double tolerance : {1e-3, 1e-5}) {

@@ -87,8 +87,7 @@ Andrews::Andrews(double stiffness, double damping) {
   // A point of a body, given where it is at the start.
   const auto point = [&](int k, const Vector2d& at) -> std::unique_ptr<Port> {
     const Vector2d from = at - centre[k];
-    return std::make_unique<PlanarPort>(bodies[static_cast<size_t>(k)],
-                                        Vector2d(from.dot(c[k]), from.dot(s[k])));
+    return std::make_unique<PlanarPort>(bodies[k], Vector2d(from.dot(c[k]), from.dot(s[k])));
   };
   const auto ground = [](const Vector2d& at) -> std::unique_ptr<Port> {
     return std::make_unique<GroundPort>(Vector3d(at.x(), at.y(), 0.0));

@@ -24,16 +24,14 @@ void exchange_patches(const rom::ReducedModel& model, const std::string& name, M
   const auto rows = static_cast<int>(grid.axial.size());
   for (int i = 0; i < grid.angle.size(); ++i) {
     const int j = opposite(grid, i);
-    for (int row = 0; row < rows; ++row)
-      mirror.place[static_cast<size_t>(dofs[static_cast<size_t>(i * rows + row)])] =
-          dofs[static_cast<size_t>(j * rows + row)];
+    for (int row = 0; row < rows; ++row) mirror.place[dofs[i * rows + row]] = dofs[j * rows + row];
   }
 }
 
 void mirror_positions(const std::vector<int>& place, rom::DofSet& set) {
   const Eigen::MatrixXd from = set.position;
   for (size_t i = 0; i < set.dofs.size(); ++i) {
-    const int target = place[static_cast<size_t>(set.dofs[i])];
+    const int target = place[set.dofs[i]];
     for (size_t j = 0; j < set.dofs.size(); ++j) {
       if (set.dofs[j] != target) continue;
       const auto to = static_cast<Eigen::Index>(j);
@@ -47,9 +45,9 @@ void mirror_positions(const std::vector<int>& place, rom::DofSet& set) {
 
 rom::ReducedModel mirrored(const rom::ReducedModel& model, Mirror& mirror) {
   const int r = model.size();
-  mirror.place.resize(static_cast<size_t>(r));
+  mirror.place.resize(r);
   std::iota(mirror.place.begin(), mirror.place.end(), 0);
-  mirror.sign.assign(static_cast<size_t>(r), 1.0);
+  mirror.sign.assign(r, 1.0);
   rom::ReducedModel image = model;
   for (auto& [name, set] : image.sets) {
     if (model.grids.contains(name)) {
@@ -58,15 +56,14 @@ rom::ReducedModel mirrored(const rom::ReducedModel& model, Mirror& mirror) {
       for (size_t i = 0; i < set.dofs.size(); ++i) {
         const bool along_y = std::abs(set.direction(static_cast<Eigen::Index>(i), 1)) > 0.5;
         const bool changes = along_y != (set.is_rotation[i] == 1);
-        if (changes) mirror.sign[static_cast<size_t>(set.dofs[i])] = -1.0;
+        if (changes) mirror.sign[set.dofs[i]] = -1.0;
       }
     }
     mirror_positions(mirror.place, set);
   }
   for (auto& [name, grid] : image.grids) grid.axis_point.y() *= -1.0;
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(r, r);  // q' = map q
-  for (int k = 0; k < r; ++k)
-    map(mirror.place[static_cast<size_t>(k)], k) = mirror.sign[static_cast<size_t>(k)];
+  for (int k = 0; k < r; ++k) map(mirror.place[k], k) = mirror.sign[k];
   image.M_rr = map * model.M_rr * map.transpose();
   image.K_rr = map * model.K_rr * map.transpose();
   const Eigen::Vector<double, 6> motions(1.0, -1.0, 1.0, -1.0, 1.0, -1.0);

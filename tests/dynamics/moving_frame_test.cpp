@@ -40,10 +40,10 @@ struct MassOnSprings {
     const double root = std::sqrt(mass);
     for (int k = 0; k < 3; ++k) {
       const Vector3d axis = Vector3d::Unit(k);
-      found.first[static_cast<size_t>(k)] = root * axis;
+      found.first[k] = root * axis;
       for (int l = 0; l < 3; ++l) {
-        found.moment[static_cast<size_t>(3 * l + k)] = root * place(l) * axis;
-        found.product[static_cast<size_t>(3 * k + l)] = axis * Vector3d::Unit(l).transpose();
+        found.moment[3 * l + k] = root * place(l) * axis;
+        found.product[3 * k + l] = axis * Vector3d::Unit(l).transpose();
       }
     }
     found.place = mass * place * place.transpose();

@@ -28,7 +28,7 @@ std::shared_ptr<SpatialFrame> arbitrary_frame(int first) {
 
 std::unique_ptr<Port> spatial_port(int first, const Vector3d& arm) {
   std::vector<int> y(kSpatial);
-  for (int k = 0; k < kSpatial; ++k) y[static_cast<size_t>(k)] = first + k;
+  for (int k = 0; k < kSpatial; ++k) y[k] = first + k;
   return std::make_unique<SpatialPort>(y, arbitrary_frame(first), arm);
 }
 
@@ -144,9 +144,8 @@ TEST(PortElement, PowerIsTheWorkOnTheBodies) {
   bushing.evaluate({0.0, 0.1, 1, {}}, y, v, false, response);
   double work = 0.0;
   for (const int first : {0, 10})
-    work +=
-        response.force.segment<3>(first).dot(v.segment<3>(first)) +
-        response.force.segment<3>(first + kMomentum).dot(spins[static_cast<size_t>(first / 10)]);
+    work += response.force.segment<3>(first).dot(v.segment<3>(first)) +
+            response.force.segment<3>(first + kMomentum).dot(spins[first / 10]);
   const double h = 1e-6;
   const auto power = [&](double time) {
     Response unused;

@@ -46,7 +46,7 @@ rom::ReducedModel rod_model(const Truss& truss) {
       set.labels.push_back(name + "." + "xyz"[axis]);
       set.is_rotation.push_back(0);
     }
-    set.position = truss.node[static_cast<size_t>(end)].transpose().replicate(3, 1);
+    set.position = truss.node[end].transpose().replicate(3, 1);
     set.direction = Eigen::Matrix3d::Identity();
   }
   return model;

@@ -21,7 +21,7 @@ LinearMotion linearised(System& system, const Eigen::VectorXd& y, const Eigen::V
   const int n = system.interface_size();
   LinearMotion motion{Eigen::VectorXd(n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n)};
   std::vector<int> all(static_cast<size_t>(n));
-  for (int i = 0; i < n; ++i) all[static_cast<size_t>(i)] = i;
+  for (int i = 0; i < n; ++i) all[i] = i;
   StageState state;
   state.eta = state.v = Eigen::VectorXd::Zero(system.modes());
   state.y = y;

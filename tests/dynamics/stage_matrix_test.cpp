@@ -30,7 +30,7 @@ std::unique_ptr<System> chain(int links, bool closed) {
                                                       linear_joint(1e4, 10.0)));
   };
   const auto end = [&](int k, double arm) -> std::unique_ptr<Port> {
-    return std::make_unique<PlanarPort>(at[static_cast<size_t>(k)], Eigen::Vector2d(arm, 0.0));
+    return std::make_unique<PlanarPort>(at[k], Eigen::Vector2d(arm, 0.0));
   };
   const auto ground = [](double x) -> std::unique_ptr<Port> {
     return std::make_unique<GroundPort>(Eigen::Vector3d(x, 0.0, 0.0));
@@ -73,7 +73,7 @@ std::vector<int> add_plate(System& system, int n) {
   body.omega_squared = VectorXd::LinSpaced(n, 1.0, 9.0);
   body.damping = VectorXd::Zero(n);
   body.inertia = VectorXd::Ones(n);
-  body.is_rotation.assign(static_cast<size_t>(n), 0);
+  body.is_rotation.assign(n, 0);
   body.mass = 1.0;
   const int b = system.add_body(body);
   std::vector<int> all;

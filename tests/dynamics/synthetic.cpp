@@ -68,7 +68,7 @@ struct Assembly {
       set.direction.resize(m, 3);
       set.is_rotation.clear();
       for (Eigen::Index i = 0; i < m; ++i) {
-        const auto k = static_cast<size_t>(set.dofs[static_cast<size_t>(i)]);
+        const auto k = static_cast<size_t>(set.dofs[i]);
         set.position.row(i) = position[k];
         set.direction.row(i) = direction[k];
         set.is_rotation.push_back(rotation[k]);

@@ -79,7 +79,7 @@ Eigen::MatrixXd modal_rigid_motions(const Model& model, const SyntheticEngine& e
   const System& system = model.system;
   Eigen::MatrixXd motions(system.modes(), 6);
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
-    const ModalBody& body = system.bodies()[static_cast<size_t>(b)];
+    const ModalBody& body = system.bodies()[b];
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
     if (body.name == "piston") place = {x, crank.pin_offset(), crank.piston_pin(time).position};
     if (body.name == "rod") place = {x, rod.x(), rod.y()};

@@ -12,7 +12,7 @@ using Eigen::VectorXd;
 MatrixXd Truss::stiffness_matrix() const {
   MatrixXd K = MatrixXd::Zero(size(), size());
   for (const auto& [a, b] : spring) {
-    const Vector3d n = (node[static_cast<size_t>(a)] - node[static_cast<size_t>(b)]).normalized();
+    const Vector3d n = (node[a] - node[b]).normalized();
     const Eigen::Matrix3d k = stiffness * n * n.transpose();
     K.block<3, 3>(3 * a, 3 * a) += k;
     K.block<3, 3>(3 * b, 3 * b) += k;
@@ -31,10 +31,10 @@ rom::InertiaInvariants Truss::invariants() const {
     const auto at = static_cast<Eigen::Index>(3 * i);
     sums.place += mass[i] * node[i] * node[i].transpose();
     for (int k = 0; k < 3; ++k) {
-      sums.first[static_cast<size_t>(k)](at + k) = mass[i];
+      sums.first[k](at + k) = mass[i];
       for (int l = 0; l < 3; ++l) {
-        sums.moment[static_cast<size_t>(3 * l + k)](at + k) = mass[i] * node[i](l);
-        sums.product[static_cast<size_t>(3 * k + l)](at + k, at + l) = mass[i];
+        sums.moment[3 * l + k](at + k) = mass[i] * node[i](l);
+        sums.product[3 * k + l](at + k, at + l) = mass[i];
       }
     }
   }

@@ -24,12 +24,11 @@ double condition(const Mesh& mesh) {
   std::vector<int32_t> index(static_cast<size_t>(all.cols()), -1);
   int32_t n = 0;
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
-    for (Eigen::Index d = 0; mesh.nodes(a, 0) > 1e-9 && d < 3; ++d)
-      index[static_cast<size_t>(3 * a + d)] = n++;
+    for (Eigen::Index d = 0; mesh.nodes(a, 0) > 1e-9 && d < 3; ++d) index[3 * a + d] = n++;
   std::vector<Eigen::Triplet<double, int32_t>> entries;
   for (Eigen::Index c = 0; c < all.cols(); ++c)
     for (SparseMatrix::InnerIterator it(all, c); it; ++it) {
-      const int32_t i = index[static_cast<size_t>(it.row())], j = index[static_cast<size_t>(c)];
+      const int32_t i = index[it.row()], j = index[c];
       if (i >= 0 && j >= 0) entries.emplace_back(i, j, it.value());
     }
   SparseMatrix K(n, n);
@@ -65,12 +64,12 @@ void straighten_all(Mesh& mesh) {
 /// height; the first corner that inverts no other cell.
 void flatten_one(Mesh& mesh) {
   std::vector<bool> outer(static_cast<size_t>(mesh.nodes.rows()), false);
-  for (const int32_t node : nodes_of(mesh.surface("skin"))) outer[static_cast<size_t>(node)] = true;
+  for (const int32_t node : nodes_of(mesh.surface("skin"))) outer[node] = true;
   const RowMatrix before = mesh.nodes;
   for (const auto& cell : mesh.cells[0].nodes.rowwise())
     for (int top = 0; top < 4; ++top) {
       const int32_t node = cell(top);
-      if (outer[static_cast<size_t>(node)]) continue;
+      if (outer[node]) continue;
       Eigen::RowVector3d foot = Eigen::RowVector3d::Zero();
       for (int i = 0; i < 4; ++i)
         if (i != top) foot += before.row(cell(i)) / 3.0;

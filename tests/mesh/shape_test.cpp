@@ -70,7 +70,7 @@ TEST_P(EveryCell, FacesPointOutwardAndTheirMidSideNodesLieOnTheirEdges) {
   const CellNodes x = reference_nodes(GetParam());
   const Eigen::RowVector3d centre = x.colwise().mean();
   for (const CellFace& face : traits(GetParam()).faces) {
-    const auto node = [&](int i) { return x.row(face.nodes[static_cast<size_t>(i)]); };
+    const auto node = [&](int i) { return x.row(face.nodes[i]); };
     const Eigen::Vector3d a = node(1) - node(0), b = node(2) - node(0);
     EXPECT_GT(a.cross(b).dot((node(0) - centre).transpose()), 0.0);
     const FaceTraits& kind = traits(face.type);
@@ -109,10 +109,8 @@ TEST_P(EveryCell, OrdersOfOtherProgramsPutMidSideNodesWhereTheirManualsSay) {
     ASSERT_EQ(p.size(), static_cast<size_t>(cell.nodes));
     EXPECT_EQ(std::vector<int>(p.begin(), p.begin() + cell.corners), corners);
     for (int e = 0; cell.corners + e < cell.nodes; ++e) {
-      const auto [a, b] = edges[static_cast<size_t>(e)];
-      EXPECT_EQ(x.row(p[static_cast<size_t>(cell.corners + e)]),
-                0.5 * (x.row(corners[static_cast<size_t>(a - 1)]) +
-                       x.row(corners[static_cast<size_t>(b - 1)])));
+      const auto [a, b] = edges[e];
+      EXPECT_EQ(x.row(p[cell.corners + e]), 0.5 * (x.row(corners[a - 1]) + x.row(corners[b - 1])));
     }
   };
   // vtkWedge and vtkQuadraticWedge are turned over (tests/pipeline/vtk_test.py asks VTK).
@@ -181,7 +179,7 @@ TEST_P(CubeCell, JacobianPolynomialIsExact) {
           double term = p.coefficients(p.index(i, j, k));
           const int index[3] = {i, j, k};
           for (int d = 0; d < 3; ++d) {
-            const int n = p.degree[static_cast<size_t>(d)];
+            const int n = p.degree[d];
             term *= std::tgamma(n + 1) / std::tgamma(index[d] + 1) / std::tgamma(n - index[d] + 1) *
                     std::pow(at(d), index[d]) * std::pow(1.0 - at(d), n - index[d]);
           }

@@ -62,7 +62,7 @@ TEST_P(UnvOfEachKind, GmshReadsTheSameCellsFacesAndGroups) {
     const std::vector<size_t> found = elements_of(traits(block.type).gmsh_type);
     ASSERT_EQ(found.size(), static_cast<size_t>(block.nodes.size()));
     for (Eigen::Index i = 0; i < block.nodes.size(); ++i)
-      ASSERT_EQ(found[static_cast<size_t>(i)], static_cast<size_t>(block.nodes.data()[i]) + 1);
+      ASSERT_EQ(found[i], static_cast<size_t>(block.nodes.data()[i]) + 1);
     cells += static_cast<size_t>(block.nodes.rows());
   }
   EXPECT_GT(cells, 0u);

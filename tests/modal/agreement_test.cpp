@@ -30,10 +30,10 @@ const std::vector<Body>& bodies() {
     const auto bar = test::solid_bar({0.25, 0.05, 0.05}, {10, 4, 4}, 0.3,
                                      "[[nodes]]\nname = \"foot\"\nnode_set = \"x0\"\n");
     std::vector<char> held(static_cast<size_t>(bar.size()), 0);
-    for (const int32_t dof : bar.set("foot").dofs) held[static_cast<size_t>(dof)] = 1;
+    for (const int32_t dof : bar.set("foot").dofs) held[dof] = 1;
     std::vector<int32_t> left;
     for (int32_t dof = 0; dof < bar.size(); ++dof)
-      if (held[static_cast<size_t>(dof)] == 0) left.push_back(dof);
+      if (held[dof] == 0) left.push_back(dof);
     return std::vector<Body>{
         {"free", 6, bar.K, bar.M, bar.rigid},
         {"held", 0, modes::principal_submatrix(bar.K, left),

@@ -64,8 +64,7 @@ TEST(CoordinateMatrices, TenFrequenciesOfHeldChainsAreFound) {
     EXPECT_TRUE(modes.proof.proved);
     const Eigen::VectorXd hz = modes.frequencies_hz();
     ASSERT_EQ(hz.size(), 10);
-    for (int j = 0; j < 10; ++j)
-      EXPECT_NEAR(hz[j] / expected[static_cast<size_t>(j)], 1.0, 1e-10) << j;
+    for (int j = 0; j < 10; ++j) EXPECT_NEAR(hz[j] / expected[j], 1.0, 1e-10) << j;
   }
 }
 

@@ -184,9 +184,9 @@ TEST(HardF11, PermutedNodesAndCellsGiveTheSameModes) {
     mesh.node_sets.clear();
     mesh.surfaces.clear();
     for (Eigen::Index a = 0; a < given.nodes.rows(); ++a)
-      mesh.nodes.row(to[static_cast<size_t>(a)]) = given.nodes.row(a);
+      mesh.nodes.row(to[a]) = given.nodes.row(a);
     for (mesh::CellBlock& block : mesh.cells) {
-      for (int32_t& node : block.nodes.reshaped()) node = to[static_cast<size_t>(node)];
+      for (int32_t& node : block.nodes.reshaped()) node = to[node];
       block.nodes = block.nodes.colwise().reverse().eval();
     }
     mesh.surfaces["skin"] = mesh::skin_of(mesh::boundary_faces(mesh));

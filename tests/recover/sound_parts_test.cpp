@@ -97,7 +97,7 @@ TEST_F(SoundRun, DirectivityOfAPulsatingAndAnOscillatingSphere) {
     EXPECT_LT(found.power_difference, 1e-9);
     Eigen::Index band = 0;
     found.mean_square.rowwise().sum().maxCoeff(&band);
-    EXPECT_EQ(found.bands.nominal[static_cast<size_t>(band)], "500");
+    EXPECT_EQ(found.bands.nominal[band], "500");
     // A dipole sends cos^2 theta, three times its mean along the axis.
     const double axis = found.directions.unit.col(2).cwiseAbs().maxCoeff();
     EXPECT_NEAR(found.index_db[band], pulsates ? 0.0 : 10 * std::log10(3.0 * axis * axis), 0.1);

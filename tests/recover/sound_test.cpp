@@ -158,7 +158,7 @@ TEST_F(SoundRun, PowerAndPressureOfALineAreThoseOfTheTable) {
   EXPECT_EQ(sound.to_hz, 700.0);
   const Eigen::VectorXcd p = microphones_at(table, kLine) * v;
   for (int m : {kBeside, kAbove})
-    EXPECT_NEAR(std::abs(sound.microphones.at(static_cast<size_t>(m)).pressure[30]), std::abs(p[m]),
+    EXPECT_NEAR(std::abs(sound.microphones.at(m).pressure[30]), std::abs(p[m]),
                 1e-9 * std::abs(p[m]));
   EXPECT_NEAR(sound.microphones[kBeside].total_db,
               20 * std::log10(std::abs(p[kBeside]) / std::sqrt(2.0) / 2e-5), 1e-6);

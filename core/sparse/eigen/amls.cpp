@@ -45,7 +45,7 @@ class Multilevel {
   MatrixXd motions(const MatrixXd& q, const VectorXd& nu) const;
 
  private:
-  const Substructure& part(Index k) const { return parts_[static_cast<size_t>(k)]; }
+  const Substructure& part(Index k) const { return parts_[k]; }
   int32_t own_rows(Index k) const {
     return A_.first_index(part(k).to) - A_.first_index(part(k).from);
   }
@@ -80,8 +80,7 @@ void Multilevel::solve_part(Index k, double cut, bool wide) {
   const std::unique_ptr<double[]> z = large_array(static_cast<size_t>(rows * b));
   const int32_t origin = A_.first_index(part(k).lowest);
   LocalOperator local{own, 0, {}};
-  for (Index d = part(k).first_inside; d < k; ++d)
-    local.inside += local_[static_cast<size_t>(d)].values.size();
+  for (Index d = part(k).first_inside; d < k; ++d) local.inside += local_[d].values.size();
   local.apply = [&](const MatrixXd& Q, MatrixXd& W, MatrixXd& C) {
     std::fill_n(x.get(), (rows - own) * b, 0.0);
     Eigen::Map<RowMatrix>(x.get() + (rows - own) * b, own, b) = Q;
@@ -91,7 +90,7 @@ void Multilevel::solve_part(Index k, double cut, bool wide) {
     C.resize(local.inside, b);
     Index at = 0;
     for (Index d = part(k).first_inside; d < k; ++d) {
-      const MatrixXd& V = local_[static_cast<size_t>(d)].vectors;
+      const MatrixXd& V = local_[d].vectors;
       const double* image = z.get() + Index{A_.first_index(part(d).from) - origin} * b;
       C.middleRows(at, V.cols()).noalias() =
           V.transpose() * Eigen::Map<const RowMatrix>(image, V.rows(), b);
@@ -99,7 +98,7 @@ void Multilevel::solve_part(Index k, double cut, bool wide) {
     }
   };
   const uint64_t seed = options_.seed + 104729 * static_cast<uint64_t>(k);
-  local_[static_cast<size_t>(k)] = local_modes(local, {cut, b, seed});
+  local_[k] = local_modes(local, {cut, b, seed});
 }
 
 std::vector<std::pair<Index, Index>> Multilevel::narrow_subtrees() const {
@@ -124,7 +123,7 @@ void Multilevel::find_local_modes(double cut) {
     for (size_t at = next++; at < subtrees.size(); at = next++)
       for (Index k = subtrees[at].first; k < subtrees[at].second; ++k) {
         solve_part(k, cut, false);
-        done[static_cast<size_t>(k)] = 1;
+        done[k] = 1;
       }
   });
   Progress progress("substructures", static_cast<double>(parts_.size()));
@@ -140,7 +139,7 @@ MatrixXd Multilevel::projected() const {
   MatrixXd T = MatrixXd::Zero(modes(), modes());
   for (size_t k = 0; k < parts_.size(); ++k) {
     const LocalModes& local = local_[k];
-    const Index first = start_[static_cast<size_t>(parts_[k].first_inside)], at = start_[k];
+    const Index first = start_[parts_[k].first_inside], at = start_[k];
     const Index count = local.values.size();
     T.block(first, at, at - first, count) = local.coupling;
     T.block(at, first, count, at - first) = local.coupling.transpose();

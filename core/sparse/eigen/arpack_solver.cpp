@@ -54,9 +54,9 @@ ArpackArrays arrays_of(const ShiftInvert& problem, const ArpackOptions& options,
   out.lworkl = basis * (basis + 8);
   out.tolerance = options.tolerance;
   out.sigma = problem.sigma;
-  out.resid.resize(static_cast<size_t>(out.n));
+  out.resid.resize(out.n);
   out.workd.resize(static_cast<size_t>(out.n) * 3);
-  out.workl.resize(static_cast<size_t>(out.lworkl));
+  out.workl.resize(out.lworkl);
   out.v.resize(out.n, out.ncv);
   out.iparam[0] = 1;  // exact shifts
   out.iparam[2] = options.max_restarts;
@@ -78,9 +78,7 @@ bool iterate(const ShiftInvert& problem, const ArpackRoutines& routines, ArpackA
              int64_t& solves) {
   while (true) {
     routines.iterate(arrays);
-    const auto at = [&](int pointer) {
-      return arrays.workd.data() + arrays.ipntr[static_cast<size_t>(pointer)] - 1;
-    };
+    const auto at = [&](int pointer) { return arrays.workd.data() + arrays.ipntr[pointer] - 1; };
     if (arrays.ido == -1) {
       Eigen::VectorXd image(arrays.n);
       problem.mass(at(0), image.data(), 1);
@@ -102,7 +100,7 @@ bool iterate(const ShiftInvert& problem, const ArpackRoutines& routines, ArpackA
 EigenResult extract(const ShiftInvert& problem, const ArpackRoutines& routines,
                     ArpackArrays& arrays) {
   const int converged = arrays.iparam[4];
-  arrays.select.assign(static_cast<size_t>(arrays.ncv), 0);
+  arrays.select.assign(arrays.ncv, 0);
   arrays.d = Eigen::VectorXd::Zero(arrays.nev);
   arrays.z.resize(arrays.n, arrays.nev);
   routines.extract(arrays);

@@ -24,8 +24,7 @@ void KnownMotions::remove(double* x, int count) const {
   parallel_pieces(pieces, [&](int64_t begin, int64_t end) {
     for (Index k = begin; k < end; ++k) {
       const Index rows = std::min(kRows, n - k * kRows);
-      part[static_cast<size_t>(k)] =
-          MU_.middleRows(k * kRows, rows).transpose() * X.middleRows(k * kRows, rows);
+      part[k] = MU_.middleRows(k * kRows, rows).transpose() * X.middleRows(k * kRows, rows);
     }
   });
   MatrixXd sum = MatrixXd::Zero(U_.cols(), count);

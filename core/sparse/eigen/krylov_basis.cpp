@@ -44,7 +44,7 @@ MatrixXd summed(Index size, Index rows, Index columns, Add&& add) {
   const Index pieces = std::min<Index>(thread_count(), size);
   std::vector<MatrixXd> parts(static_cast<size_t>(pieces), MatrixXd::Zero(rows, columns));
   parallel_pieces(pieces, [&](int64_t piece, int64_t) {
-    MatrixXd& sum = parts[static_cast<size_t>(piece)];
+    MatrixXd& sum = parts[piece];
     for_each_row_tile(size * piece / pieces, size * (piece + 1) / pieces,
                       [&](Index row, Index count) { add(row, count, sum); });
   });
@@ -118,7 +118,7 @@ MatrixXd KrylovBasis::coefficients(Index first, Index last, const TallBlock& B) 
   const Index pieces = std::min<Index>(thread_count(), size_);
   std::vector<RowMatrix> parts(static_cast<size_t>(pieces), RowMatrix::Zero(last - first, B.count));
   parallel_pieces(pieces, [&](int64_t piece, int64_t) {
-    RowMatrix& H = parts[static_cast<size_t>(piece)];
+    RowMatrix& H = parts[piece];
     over_tiles(size_ * piece / pieces, size_ * (piece + 1) / pieces, first, last,
                [&](Index row, int rows, Index column, int columns) {
                  for (Index lane = 0; lane < B.count; lane += kLanes)

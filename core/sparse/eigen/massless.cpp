@@ -27,12 +27,11 @@ Split split_by_mass(const SparseMatrix& M) {
 SparseMatrix block_of(const SparseMatrix& full, const std::vector<int32_t>& rows,
                       const std::vector<int32_t>& columns) {
   std::vector<int32_t> new_index(static_cast<size_t>(full.rows()), -1);
-  for (size_t k = 0; k < rows.size(); ++k)
-    new_index[static_cast<size_t>(rows[k])] = static_cast<int32_t>(k);
+  for (size_t k = 0; k < rows.size(); ++k) new_index[rows[k]] = static_cast<int32_t>(k);
   std::vector<Eigen::Triplet<double>> entries;
   for (size_t k = 0; k < columns.size(); ++k)
     for (SparseMatrix::InnerIterator it(full, columns[k]); it; ++it)
-      if (const int32_t row = new_index[static_cast<size_t>(it.row())]; row >= 0)
+      if (const int32_t row = new_index[it.row()]; row >= 0)
         entries.emplace_back(row, static_cast<int32_t>(k), it.value());
   SparseMatrix out(static_cast<Index>(rows.size()), static_cast<Index>(columns.size()));
   out.setFromTriplets(entries.begin(), entries.end());
@@ -45,7 +44,7 @@ SupernodalFactor factor_massless(const SparseMatrix& K_00, const std::vector<int
   try {
     return SupernodalFactor(K_00);
   } catch (const NotPositiveDefinite& error) {
-    const int64_t column = error.column < 0 ? -1 : massless[static_cast<size_t>(error.column)];
+    const int64_t column = error.column < 0 ? -1 : massless[error.column];
     throw NotPositiveDefinite(fmt::format("unknowns without mass: {}", error.what()), column);
   }
 }

@@ -17,7 +17,7 @@ double hz_of_value(double value) {
 
 double default_shift(const SparseMatrix& K, const SparseMatrix& M) {
   std::vector<double> ratio;
-  ratio.reserve(static_cast<size_t>(K.cols()));
+  ratio.reserve(K.cols());
   for (int j = 0; j < K.cols(); ++j) {
     const double m = M.coeff(j, j);
     if (m > 0.0) ratio.push_back(K.coeff(j, j) / m);

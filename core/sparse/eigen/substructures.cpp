@@ -38,10 +38,9 @@ std::vector<Substructure> partition(const SupernodeTree& tree, const PartitionLi
       separator_last = false;
       continue;
     }
-    const bool follows =
-        separator_last && out.back().to == s && tree.parent[static_cast<size_t>(s - 1)] == s;
+    const bool follows = separator_last && out.back().to == s && tree.parent[s - 1] == s;
     if (follows) {
-      const int32_t joined = tree.first[at + 1] - tree.first[static_cast<size_t>(out.back().from)];
+      const int32_t joined = tree.first[at + 1] - tree.first[out.back().from];
       if (trees.children[at] == 1 || joined <= limits.separator) {
         out.back().to = s + 1;
         out.back().lowest = trees.lowest[at];

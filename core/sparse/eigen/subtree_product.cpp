@@ -21,8 +21,7 @@ void split_lanes(int count, bool wide, Body&& body) {
 
 SubtreeProduct::SubtreeProduct(const SupernodalFactor& factor, const SymmetricProduct& mass)
     : factor_(factor), mass_(mass) {
-  for (const int32_t unknown : factor.tree().order)
-    scale_.push_back(factor.scale()[static_cast<size_t>(unknown)]);
+  for (const int32_t unknown : factor.tree().order) scale_.push_back(factor.scale()[unknown]);
 }
 
 FactorView SubtreeProduct::view(const Substructure& part) const {
@@ -34,7 +33,7 @@ FactorView SubtreeProduct::view(const Substructure& part) const {
 
 void SubtreeProduct::scale(int64_t first, int64_t rows, double* x, int count) const {
   for (int64_t j = 0; j < rows; ++j) {
-    const double s = scale_[static_cast<size_t>(first + j)];
+    const double s = scale_[first + j];
     for (int c = 0; c < count; ++c) x[j * count + c] *= s;
   }
 }

@@ -22,9 +22,7 @@ class SubtreeProduct {
   /// x <- S L^{-T} x on all unknowns, on all threads.
   void to_displacement(double* x, int count) const;
 
-  int32_t first_index(int32_t supernode) const {
-    return factor_.tree().first[static_cast<size_t>(supernode)];
-  }
+  int32_t first_index(int32_t supernode) const { return factor_.tree().first[supernode]; }
   Substructure full_tree() const { return {0, factor_.tree().supernodes(), 0, 0}; }
 
  private:

@@ -45,7 +45,7 @@ struct LongPattern {
   explicit LongPattern(const SparseMatrix& lower) {
     const auto n = static_cast<size_t>(lower.cols());
     starts.assign(n + 1, 0);
-    rows.reserve(static_cast<size_t>(lower.nonZeros()));
+    rows.reserve(lower.nonZeros());
     for (int j = 0; j < lower.cols(); ++j) {
       for (SparseMatrix::InnerIterator it(lower, j); it; ++it)
         if (it.row() >= j) rows.push_back(it.row());

@@ -50,8 +50,8 @@ struct BlockDiagonal {
 
 BlockDiagonal bunch_kaufman(const Front& front) {
   BlockDiagonal d;
-  d.subdiagonal.resize(static_cast<size_t>(front.columns));
-  d.pivots.resize(static_cast<size_t>(front.columns));
+  d.subdiagonal.resize(front.columns);
+  d.pivots.resize(front.columns);
   const int n = front.columns, stride = front.height(), query = -1;
   double best = 0.0;
   int info = 0;
@@ -71,7 +71,7 @@ double growth_definite(const Front& front) {
   for (int j = 0; j < front.columns; ++j) {
     const double* column =
         front.panel + static_cast<size_t>(j) * static_cast<size_t>(front.height()) + front.columns;
-    for (int i = 0; i < front.below; ++i) squares[static_cast<size_t>(i)] += column[i] * column[i];
+    for (int i = 0; i < front.below; ++i) squares[i] += column[i] * column[i];
   }
   return front.below == 0 ? 0.0 : std::sqrt(*std::max_element(squares.begin(), squares.end()));
 }
@@ -82,7 +82,7 @@ void count_signs(const Front& front, const BlockDiagonal& d, PivotSigns& signs) 
     return front.panel[static_cast<size_t>(j) * static_cast<size_t>(front.height() + 1)];
   };
   for (int j = 0; j < front.columns; ++j) {
-    const double a = diagonal(j), subdiagonal = d.subdiagonal[static_cast<size_t>(j)];
+    const double a = diagonal(j), subdiagonal = d.subdiagonal[j];
     if (subdiagonal == 0.0) {
       signs.negative += a < -kZeroPivot;
       signs.zero += std::abs(a) <= kZeroPivot;

@@ -17,7 +17,7 @@ std::vector<std::vector<int32_t>> coupled_columns(const SparseMatrix& coupling,
   std::vector<std::vector<int32_t>> out(graph.weight.size());
   for (int b = 0; b < coupling.outerSize(); ++b) {
     for (SparseMatrix::InnerIterator it(coupling, b); it; ++it) {
-      auto& list = out[static_cast<size_t>(graph.vertex[static_cast<size_t>(it.row())])];
+      auto& list = out[graph.vertex[it.row()]];
       if (list.empty() || list.back() != b) list.push_back(b);
     }
   }
@@ -35,7 +35,7 @@ SparseMatrix lower_of(const CompressedGraph& graph, const SparseMatrix& coupling
     if (v < n) {
       const auto at = static_cast<size_t>(v);
       for (int64_t k = graph.starts[at]; k < graph.starts[at + 1]; ++k)
-        if (const int32_t w = graph.neighbours[static_cast<size_t>(k)]; w > v) rows.push_back(w);
+        if (const int32_t w = graph.neighbours[k]; w > v) rows.push_back(w);
       for (const int32_t b : coupled[at]) rows.push_back(n + b);
     }
     std::sort(rows.begin(), rows.end());
@@ -52,20 +52,20 @@ void take_fronts(const SupernodeTree& tree, const CompressedGraph& graph, FrontS
   for (int32_t s = 0; s < tree.supernodes(); ++s) {
     int64_t columns = 0, height = 0;
     for (int32_t k = 0; k < tree.height(s); ++k) {
-      const int32_t vertex = tree.order[static_cast<size_t>(tree.rows_of(s)[k])];
+      const int32_t vertex = tree.order[tree.rows_of(s)[k]];
       const bool boundary = vertex >= graph.size();
-      const int64_t weight = boundary ? 1 : graph.weight[static_cast<size_t>(vertex)];
+      const int64_t weight = boundary ? 1 : graph.weight[vertex];
       height += weight;
       if (k < tree.columns(s) && !boundary) columns += weight;
     }
     if (columns == 0) continue;
-    front[static_cast<size_t>(s)] = out.fronts();
+    front[s] = out.fronts();
     out.columns.push_back(columns);
     out.height.push_back(height);
-    out.parent.push_back(tree.parent[static_cast<size_t>(s)]);
+    out.parent.push_back(tree.parent[s]);
   }
   for (int32_t& parent : out.parent)
-    if (parent >= 0) parent = front[static_cast<size_t>(parent)];
+    if (parent >= 0) parent = front[parent];
 }
 
 /// METIS, as fill_reducing_order; AMD where METIS cannot.

@@ -19,8 +19,7 @@ std::vector<double> scale_of(const SparseMatrix& K) {
   std::vector<double> scale(static_cast<size_t>(K.cols()), 1.0);
   for (int j = 0; j < K.cols(); ++j) {
     const double d = K.coeff(j, j);
-    if (d > 0.0 && std::isfinite(d))
-      scale[static_cast<size_t>(j)] = std::exp2(-std::round(0.5 * std::log2(d)));
+    if (d > 0.0 && std::isfinite(d)) scale[j] = std::exp2(-std::round(0.5 * std::log2(d)));
   }
   return scale;
 }

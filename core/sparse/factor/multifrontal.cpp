@@ -70,11 +70,11 @@ class Elimination {
 void Elimination::assemble_matrix(int32_t s, const Workspace& work, const Front& front) const {
   const auto height = static_cast<size_t>(front.height());
   for (int j = 0; j < front.columns; ++j) {
-    const auto index = static_cast<size_t>(tree_.first[static_cast<size_t>(s)] + j);
+    const auto index = static_cast<size_t>(tree_.first[s] + j);
     double* column = front.panel + static_cast<size_t>(j) * height;
     for (int64_t k = matrix_.starts[index]; k < matrix_.starts[index + 1]; ++k) {
-      const auto row = static_cast<size_t>(matrix_.rows[static_cast<size_t>(k)]);
-      column[work.local[row]] += matrix_.values[static_cast<size_t>(k)];
+      const auto row = static_cast<size_t>(matrix_.rows[k]);
+      column[work.local[row]] += matrix_.values[k];
     }
   }
 }
@@ -84,10 +84,9 @@ void Elimination::assemble_child(int32_t child, Workspace& work, const Front& fr
                                  bool wide) const {
   const int32_t q = tree_.below(child);
   const int32_t* rows = tree_.rows_of(child) + tree_.columns(child);
-  work.child_row.resize(static_cast<size_t>(q));
-  for (int32_t k = 0; k < q; ++k)
-    work.child_row[static_cast<size_t>(k)] = work.local[static_cast<size_t>(rows[k])];
-  const double* update = updates_[static_cast<size_t>(child)].data.get();
+  work.child_row.resize(q);
+  for (int32_t k = 0; k < q; ++k) work.child_row[k] = work.local[rows[k]];
+  const double* update = updates_[child].data.get();
   const int32_t* row = work.child_row.data();
   const auto columns = [&](int64_t begin, int64_t end) {
     for (int64_t j = begin; j < end; ++j) {
@@ -133,21 +132,20 @@ void Elimination::process(int32_t s, Workspace& work, bool wide) {
   front.below = tree_.below(s);
   const auto height = static_cast<size_t>(front.height());
   const size_t panel_entries = height * static_cast<size_t>(front.columns);
-  front.panel = panels_ != nullptr ? panels_ + tree_.panel_start[static_cast<size_t>(s)]
-                                   : work.scratch(panel_entries);
+  front.panel = panels_ != nullptr ? panels_ + tree_.panel_start[s] : work.scratch(panel_entries);
   const size_t update_entries = static_cast<size_t>(front.below) * static_cast<size_t>(front.below);
   Buffer update = work.pool.take(update_entries);
   front.update = update.data.get();
   clear(front, wide);
   const int32_t* rows = tree_.rows_of(s);
-  for (int32_t k = 0; k < front.height(); ++k) work.local[static_cast<size_t>(rows[k])] = k;
+  for (int32_t k = 0; k < front.height(); ++k) work.local[rows[k]] = k;
   assemble_matrix(s, work, front);
-  for (const int32_t child : children_[static_cast<size_t>(s)]) {
+  for (const int32_t child : children_[s]) {
     assemble_child(child, work, front, wide);
-    work.pool.give(std::move(updates_[static_cast<size_t>(child)]));
+    work.pool.give(std::move(updates_[child]));
   }
   kernel_(s, front);
-  updates_[static_cast<size_t>(s)] = std::move(update);
+  updates_[s] = std::move(update);
 }
 
 void Elimination::report(double flops) {
@@ -167,7 +165,7 @@ void Elimination::run() {
       for (size_t k = next++; k < plan.subtrees.size(); k = next++) {
         const int32_t root = plan.subtrees[k];
         double flops = 0.0;
-        for (int32_t s = plan.lowest[static_cast<size_t>(root)]; s <= root; ++s) {
+        for (int32_t s = plan.lowest[root]; s <= root; ++s) {
           process(s, work, false);
           flops += tree_.flops(s);
         }
@@ -184,10 +182,10 @@ void Elimination::run() {
 
 void Elimination::add_to(Eigen::MatrixXd& schur) const {
   for (int32_t s = 0; s < tree_.supernodes(); ++s) {
-    if (tree_.parent[static_cast<size_t>(s)] >= 0) continue;
+    if (tree_.parent[s] >= 0) continue;
     const int32_t q = tree_.below(s);
     const int32_t* rows = tree_.rows_of(s) + tree_.columns(s);
-    const double* update = updates_[static_cast<size_t>(s)].data.get();
+    const double* update = updates_[s].data.get();
     for (int64_t j = 0; j < q; ++j) {
       for (int64_t i = j; i < q; ++i) {
         const int32_t a = rows[i] - tree_.size, b = rows[j] - tree_.size;
@@ -204,7 +202,7 @@ PermutedMatrix permuted(const SupernodeTree& tree, const SparseMatrix& lower,
                         const std::vector<double>& scale, const SparseMatrix& coupling) {
   const auto n = static_cast<size_t>(tree.size);
   const std::vector<int32_t> inverse = tree.inverse_order();
-  const auto at = [&](Eigen::Index i) { return inverse[static_cast<size_t>(i)]; };
+  const auto at = [&](Eigen::Index i) { return inverse[i]; };
   PermutedMatrix out;
   out.starts.assign(n + 1, 0);
   for (int j = 0; j < lower.cols(); ++j)
@@ -214,11 +212,11 @@ PermutedMatrix permuted(const SupernodeTree& tree, const SparseMatrix& lower,
     for (SparseMatrix::InnerIterator it(coupling, b); it; ++it)
       ++out.starts[static_cast<size_t>(at(it.row())) + 1];
   std::partial_sum(out.starts.begin(), out.starts.end(), out.starts.begin());
-  out.rows.resize(static_cast<size_t>(out.starts[n]));
+  out.rows.resize(out.starts[n]);
   out.values.resize(out.rows.size());
   std::vector<int64_t> next(out.starts.begin(), out.starts.end() - 1);
   const auto put = [&](int32_t column, int32_t row, double value) {
-    const auto k = static_cast<size_t>(next[static_cast<size_t>(column)]++);
+    const auto k = static_cast<size_t>(next[column]++);
     out.rows[k] = row;
     out.values[k] = value;
   };
@@ -226,13 +224,12 @@ PermutedMatrix permuted(const SupernodeTree& tree, const SparseMatrix& lower,
     for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
       if (it.row() < j) continue;
       const auto [column, row] = std::minmax({at(it.row()), at(j)});
-      put(column, row,
-          it.value() * scale[static_cast<size_t>(j)] * scale[static_cast<size_t>(it.row())]);
+      put(column, row, it.value() * scale[j] * scale[it.row()]);
     }
   }
   for (int b = 0; b < coupling.cols(); ++b)
     for (SparseMatrix::InnerIterator it(coupling, b); it; ++it)
-      put(at(it.row()), tree.size + b, it.value() * scale[static_cast<size_t>(it.row())]);
+      put(at(it.row()), tree.size + b, it.value() * scale[it.row()]);
   return out;
 }
 

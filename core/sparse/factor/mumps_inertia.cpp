@@ -90,7 +90,7 @@ Triplets shifted_triplets(const SparseMatrix& K, const SparseMatrix& M, double m
 void analyse(Mumps& mumps, const std::vector<int64_t>& permutation) {
   std::vector<MUMPS_INT> position(permutation.size());
   for (size_t index = 0; index < permutation.size(); ++index) {
-    position[static_cast<size_t>(permutation[index])] = static_cast<MUMPS_INT>(index + 1);
+    position[permutation[index]] = static_cast<MUMPS_INT>(index + 1);
   }
   mumps.icntl(6) = 0;                            // keep the diagonal unpermuted
   mumps.icntl(7) = permutation.empty() ? 5 : 1;  // METIS, or the given order

@@ -26,11 +26,11 @@ struct Pattern {
       ++starts[static_cast<size_t>(column) + 1];
     });
     std::partial_sum(starts.begin(), starts.end(), starts.begin());
-    neighbours.resize(static_cast<size_t>(starts[n]));
+    neighbours.resize(starts[n]);
     std::vector<int64_t> next(starts.begin(), starts.end() - 1);
     for_each_edge(lower, [&](int row, int column) {
-      neighbours[static_cast<size_t>(next[static_cast<size_t>(row)]++)] = column;
-      neighbours[static_cast<size_t>(next[static_cast<size_t>(column)]++)] = row;
+      neighbours[next[row]++] = column;
+      neighbours[next[column]++] = row;
     });
   }
 
@@ -41,9 +41,7 @@ struct Pattern {
         if (it.row() > j) body(static_cast<int>(it.row()), j);
   }
 
-  const int32_t* begin(int32_t i) const {
-    return neighbours.data() + starts[static_cast<size_t>(i)];
-  }
+  const int32_t* begin(int32_t i) const { return neighbours.data() + starts[i]; }
   const int32_t* end(int32_t i) const {
     return neighbours.data() + starts[static_cast<size_t>(i) + 1];
   }
@@ -83,18 +81,18 @@ bool same_neighbours(const Pattern& pattern, int32_t i, int32_t j) {
 void find_vertices(const Pattern& pattern, CompressedGraph& graph) {
   const auto n = static_cast<int32_t>(pattern.starts.size()) - 1;
   std::vector<uint64_t> hash(static_cast<size_t>(n));
-  for (int32_t i = 0; i < n; ++i) hash[static_cast<size_t>(i)] = closed_hash(pattern, i);
-  graph.vertex.assign(static_cast<size_t>(n), -1);
+  for (int32_t i = 0; i < n; ++i) hash[i] = closed_hash(pattern, i);
+  graph.vertex.assign(n, -1);
   for (int32_t i = 0; i < n; ++i) {
-    if (graph.vertex[static_cast<size_t>(i)] >= 0) continue;
+    if (graph.vertex[i] >= 0) continue;
     const int32_t vertex = graph.size();
-    graph.vertex[static_cast<size_t>(i)] = vertex;
+    graph.vertex[i] = vertex;
     graph.weight.push_back(1);
     for (const int32_t* j = pattern.begin(i); j != pattern.end(i); ++j) {
-      if (*j < i || graph.vertex[static_cast<size_t>(*j)] >= 0) continue;
-      if (hash[static_cast<size_t>(*j)] != hash[static_cast<size_t>(i)]) continue;
+      if (*j < i || graph.vertex[*j] >= 0) continue;
+      if (hash[*j] != hash[i]) continue;
       if (!same_neighbours(pattern, i, *j)) continue;
-      graph.vertex[static_cast<size_t>(*j)] = vertex;
+      graph.vertex[*j] = vertex;
       ++graph.weight.back();
     }
   }
@@ -104,16 +102,16 @@ void find_vertices(const Pattern& pattern, CompressedGraph& graph) {
 void find_edges(const Pattern& pattern, CompressedGraph& graph) {
   std::vector<int32_t> first(graph.weight.size(), -1), seen(graph.weight.size(), -1);
   for (int32_t i = 0; i < static_cast<int32_t>(graph.vertex.size()); ++i) {
-    int32_t& unknown = first[static_cast<size_t>(graph.vertex[static_cast<size_t>(i)])];
+    int32_t& unknown = first[graph.vertex[i]];
     if (unknown < 0) unknown = i;
   }
   graph.starts.push_back(0);
   for (int32_t v = 0; v < graph.size(); ++v) {
-    const int32_t i = first[static_cast<size_t>(v)];
+    const int32_t i = first[v];
     for (const int32_t* j = pattern.begin(i); j != pattern.end(i); ++j) {
-      const int32_t other = graph.vertex[static_cast<size_t>(*j)];
-      if (other == v || seen[static_cast<size_t>(other)] == v) continue;
-      seen[static_cast<size_t>(other)] = v;
+      const int32_t other = graph.vertex[*j];
+      if (other == v || seen[other] == v) continue;
+      seen[other] = v;
       graph.neighbours.push_back(other);
     }
     graph.starts.push_back(static_cast<int64_t>(graph.neighbours.size()));
@@ -125,13 +123,12 @@ std::vector<int32_t> unknowns_in_order(const CompressedGraph& graph,
   std::vector<int32_t> start(graph.weight.size());
   int32_t next = 0;
   for (const int32_t v : vertices) {
-    start[static_cast<size_t>(v)] = next;
-    next += graph.weight[static_cast<size_t>(v)];
+    start[v] = next;
+    next += graph.weight[v];
   }
   std::vector<int32_t> order(graph.vertex.size());
   for (size_t i = 0; i < order.size(); ++i)
-    order[static_cast<size_t>(start[static_cast<size_t>(graph.vertex[i])]++)] =
-        static_cast<int32_t>(i);
+    order[start[graph.vertex[i]]++] = static_cast<int32_t>(i);
   return order;
 }
 
@@ -184,7 +181,7 @@ FillOrder fill_reducing_order(const SparseMatrix& lower, Ordering wanted) {
   if (wanted == Ordering::kAmd) {
     out.order = minimum_degree(lower);
   } else {
-    out.order.resize(static_cast<size_t>(lower.cols()));
+    out.order.resize(lower.cols());
     std::iota(out.order.begin(), out.order.end(), 0);
   }
   return out;

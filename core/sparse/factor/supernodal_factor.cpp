@@ -70,7 +70,7 @@ std::vector<double> power_of_two_scale(const SparseMatrix& lower) {
       throw NotPositiveDefinite(
           fmt::format("matrix is not positive definite: diagonal {} is {}", j, d), j);
     }
-    scale[static_cast<size_t>(j)] = std::exp2(-std::round(0.5 * std::log2(d)));
+    scale[j] = std::exp2(-std::round(0.5 * std::log2(d)));
   }
   return scale;
 }
@@ -101,7 +101,7 @@ void SupernodalFactor::Impl::factorise(const SparseMatrix& lower, const SparseMa
     const FrontKernel kernel = [&](int32_t s, const Front& front) {
       const int failed = eliminate_definite(front);
       if (failed == 0) return;
-      const auto index = static_cast<size_t>(tree.first[static_cast<size_t>(s)] + failed - 1);
+      const auto index = static_cast<size_t>(tree.first[s] + failed - 1);
       const int64_t column = tree.order[index];
       throw NotPositiveDefinite(
           fmt::format("matrix is not positive definite: factorisation stopped at column {}",
@@ -119,7 +119,7 @@ void SupernodalFactor::Impl::factorise(const SparseMatrix& lower, const SparseMa
 void SupernodalFactor::Impl::check_pivots(const FactorOptions& options) {
   double least = std::numeric_limits<double>::infinity(), largest = 0.0;
   for (int32_t s = 0; s < tree.supernodes(); ++s) {
-    const double* panel = panels.get() + tree.panel_start[static_cast<size_t>(s)];
+    const double* panel = panels.get() + tree.panel_start[s];
     for (int64_t j = 0; j < tree.columns(s); ++j) {
       const double pivot = panel[j * (tree.height(s) + 1)];
       least = std::min(least, pivot);
@@ -171,7 +171,7 @@ void SupernodalFactor::Impl::by_blocks(const Eigen::Ref<const Eigen::MatrixXd>& 
     const Index used = std::min(block, b.cols() - first), count = whole_lanes(used);
     parallel_pieces(n, [&](int64_t begin, int64_t end) {
       for (int64_t j = begin; j < end; ++j) {
-        const Index i = tree.order[static_cast<size_t>(j)];
+        const Index i = tree.order[j];
         double* row = work.get() + j * count;
         for (Index c = 0; c < used; ++c) row[c] = b(i, first + c);
         std::fill(row + used, row + count, 0.0);
@@ -188,7 +188,7 @@ Eigen::MatrixXd SupernodalFactor::Impl::solve(const Eigen::Ref<const Eigen::Matr
     sweeps.solve(view(), scale, work, static_cast<int>(count));
     parallel_pieces(tree.size, [&](int64_t begin, int64_t end) {
       for (int64_t j = begin; j < end; ++j) {
-        const Index i = tree.order[static_cast<size_t>(j)];
+        const Index i = tree.order[j];
         const double* row = work + j * count;
         for (Index c = 0; c < used; ++c) x(i, first + c) = row[c];
       }

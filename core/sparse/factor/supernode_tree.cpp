@@ -18,7 +18,7 @@ void find_parents(SupernodeTree& tree) {
   for (int32_t s = 0; s < tree.supernodes(); ++s) {
     if (tree.below(s) == 0) continue;
     const int32_t row = tree.rows_of(s)[tree.columns(s)];
-    tree.parent[static_cast<size_t>(s)] = owner[static_cast<size_t>(row)];
+    tree.parent[s] = owner[row];
   }
 }
 
@@ -29,23 +29,22 @@ void add_boundary_rows(const SparseMatrix& coupling, SupernodeTree& tree) {
   std::vector<std::vector<int32_t>> touched(tree.parent.size());
   for (int32_t b = 0; b < tree.boundary; ++b) {
     for (SparseMatrix::InnerIterator it(coupling, b); it; ++it) {
-      auto& list = touched[static_cast<size_t>(
-          owner[static_cast<size_t>(index[static_cast<size_t>(it.row())])])];
+      auto& list = touched[owner[index[it.row()]]];
       if (list.empty() || list.back() != b) list.push_back(b);
     }
   }
   std::vector<int64_t> starts{0};
   std::vector<int32_t> rows;
   for (int32_t s = 0; s < tree.supernodes(); ++s) {
-    auto& list = touched[static_cast<size_t>(s)];
+    auto& list = touched[s];
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
     rows.insert(rows.end(), tree.rows_of(s), tree.rows_of(s) + tree.height(s));
     for (const int32_t b : list) rows.push_back(tree.size + b);
     starts.push_back(static_cast<int64_t>(rows.size()));
-    const int32_t parent = tree.parent[static_cast<size_t>(s)];
+    const int32_t parent = tree.parent[s];
     if (parent < 0) continue;
-    auto& above = touched[static_cast<size_t>(parent)];
+    auto& above = touched[parent];
     above.insert(above.end(), list.begin(), list.end());
     std::vector<int32_t>().swap(list);
   }

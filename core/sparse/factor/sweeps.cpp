@@ -26,9 +26,9 @@ struct Block {
       : columns(L.tree->columns(s)),
         below(L.tree->rows_before(s, L.reach_index())),
         height(L.tree->height(s)),
-        panel(L.panels + L.tree->panel_start[static_cast<size_t>(s)]),
+        panel(L.panels + L.tree->panel_start[s]),
         rows(L.tree->rows_of(s) + columns),
-        x(all.at + int64_t{L.tree->first[static_cast<size_t>(s)] - L.first_index()} * all.stride) {}
+        x(all.at + int64_t{L.tree->first[s] - L.first_index()} * all.stride) {}
 };
 
 template <class Body>

@@ -20,8 +20,8 @@ struct FactorView {
 
   int32_t end() const { return to < 0 ? tree->supernodes() : to; }
   /// First index, and one past the last.
-  int32_t first_index() const { return tree->first[static_cast<size_t>(from)]; }
-  int32_t end_index() const { return tree->first[static_cast<size_t>(end())]; }
+  int32_t first_index() const { return tree->first[from]; }
+  int32_t end_index() const { return tree->first[end()]; }
   int32_t reach_index() const { return reach < 0 ? end_index() : reach; }
 };
 

@@ -13,10 +13,8 @@ TreeSchedule schedule(const SupernodeTree& tree, int threads, std::vector<double
   TreeSchedule out;
   out.lowest = tree.lowest();
   for (size_t s = 0; s < n; ++s)
-    if (tree.parent[s] >= 0) work[static_cast<size_t>(tree.parent[s])] += work[s];
-  const auto lighter = [&](int32_t a, int32_t b) {
-    return work[static_cast<size_t>(a)] < work[static_cast<size_t>(b)];
-  };
+    if (tree.parent[s] >= 0) work[tree.parent[s]] += work[s];
+  const auto lighter = [&](int32_t a, int32_t b) { return work[a] < work[b]; };
   std::priority_queue<int32_t, std::vector<int32_t>, decltype(lighter)> heaviest(lighter);
   double total = 0.0;
   for (size_t s = 0; s < n; ++s) {
@@ -26,11 +24,11 @@ TreeSchedule schedule(const SupernodeTree& tree, int threads, std::vector<double
   }
   const double limit = threads > 1 ? share * total / threads : -1.0;
   const std::vector<std::vector<int32_t>> children = tree.children();
-  while (!heaviest.empty() && work[static_cast<size_t>(heaviest.top())] > limit) {
+  while (!heaviest.empty() && work[heaviest.top()] > limit) {
     const int32_t s = heaviest.top();
     heaviest.pop();
     out.top.push_back(s);
-    for (const int32_t child : children[static_cast<size_t>(s)]) heaviest.push(child);
+    for (const int32_t child : children[s]) heaviest.push(child);
   }
   std::sort(out.top.begin(), out.top.end());
   for (; !heaviest.empty(); heaviest.pop()) out.subtrees.push_back(heaviest.top());

@@ -19,7 +19,7 @@ struct TreeSweeps::Task {
   double* sums;  // of each thread for the rows of the top, thread after thread
 
   void scale_row(int64_t row) const {
-    const double s = scale[static_cast<size_t>(L.tree->order[static_cast<size_t>(row)])];
+    const double s = scale[L.tree->order[row]];
     for (int64_t c = 0; c < count; ++c) x[row * count + c] *= s;
   }
   FactorView subtree(int32_t lowest, int32_t root) const {
@@ -47,19 +47,18 @@ struct Shares {
 Shares share_out(const SupernodeTree& tree, int threads, double largest) {
   std::vector<double> entries(static_cast<size_t>(tree.supernodes()));
   for (int32_t s = 0; s < tree.supernodes(); ++s)
-    entries[static_cast<size_t>(s)] = static_cast<double>(tree.columns(s)) * tree.height(s);
+    entries[s] = static_cast<double>(tree.columns(s)) * tree.height(s);
   Shares out;
   out.plan = schedule(tree, threads, entries, largest);
-  out.roots.resize(static_cast<size_t>(threads));
+  out.roots.resize(threads);
   std::vector<double> load(out.roots.size(), 0.0);
   for (const int32_t root : out.plan.subtrees) {
     const auto t = std::min_element(load.begin(), load.end()) - load.begin();
-    out.roots[static_cast<size_t>(t)].push_back(root);
-    for (int32_t s = out.plan.lowest[static_cast<size_t>(root)]; s <= root; ++s)
-      load[static_cast<size_t>(t)] += entries[static_cast<size_t>(s)];
+    out.roots[t].push_back(root);
+    for (int32_t s = out.plan.lowest[root]; s <= root; ++s) load[t] += entries[s];
   }
   double top = 0.0;
-  for (const int32_t s : out.plan.top) top += entries[static_cast<size_t>(s)];
+  for (const int32_t s : out.plan.top) top += entries[s];
   // With few columns one thread does the top, with many all share it.
   out.cost = *std::max_element(load.begin(), load.end()) + top * 0.5 * (1.0 + 1.0 / threads);
   return out;
@@ -79,12 +78,11 @@ TreeSweeps::TreeSweeps(const SupernodeTree& tree, int threads) {
   lowest_ = std::move(plan.lowest);
   top_ = std::move(plan.top);
   for (const int32_t s : top_)
-    for (int32_t j = 0; j < tree.columns(s); ++j)
-      top_indices_.push_back(tree.first[static_cast<size_t>(s)] + j);
+    for (int32_t j = 0; j < tree.columns(s); ++j) top_indices_.push_back(tree.first[s] + j);
   for (int32_t b = 0; b < tree.boundary; ++b) top_indices_.push_back(tree.size + b);
-  index_.assign(static_cast<size_t>(tree.size + tree.boundary), -1);
+  index_.assign(tree.size + tree.boundary, -1);
   for (size_t k = 0; k < top_indices_.size(); ++k)
-    index_[static_cast<size_t>(top_indices_[k])] = static_cast<int32_t>(k);
+    index_[top_indices_[k]] = static_cast<int32_t>(k);
 }
 
 void TreeSweeps::forward_subtrees(const Task& task) const {
@@ -94,8 +92,8 @@ void TreeSweeps::forward_subtrees(const Task& task) const {
     for (int64_t t = begin; t < end; ++t) {
       double* sums = task.sums + t * sums_of_thread;
       std::fill_n(sums, sums_of_thread, 0.0);
-      for (const int32_t root : shares_[static_cast<size_t>(t)]) {
-        const FactorView view = task.subtree(lowest_[static_cast<size_t>(root)], root);
+      for (const int32_t root : shares_[t]) {
+        const FactorView view = task.subtree(lowest_[root], root);
         for (int64_t j = view.first_index(); j < view.end_index(); ++j) task.scale_row(j);
         for (int32_t s = view.from; s <= root; ++s)
           forward_step(view, s, task.columns(view), work, {sums, index_.data()});
@@ -109,7 +107,7 @@ void TreeSweeps::join_top(const Task& task) const {
   const int32_t size = task.L.tree->size, reach = task.L.reach_index();
   parallel_pieces(rows, [&](int64_t begin, int64_t end) {
     for (int64_t k = begin; k < end; ++k) {
-      const int32_t row = top_indices_[static_cast<size_t>(k)];
+      const int32_t row = top_indices_[k];
       if (row >= reach) continue;
       if (row < size) task.scale_row(row);
       for (size_t t = 0; t < shares_.size(); ++t) {
@@ -136,8 +134,8 @@ void TreeSweeps::backward_subtrees(const Task& task) const {
   parallel_pieces(static_cast<int64_t>(shares_.size()), [&](int64_t begin, int64_t end) {
     std::vector<double> work;
     for (int64_t t = begin; t < end; ++t) {
-      for (const int32_t root : shares_[static_cast<size_t>(t)]) {
-        const FactorView view = task.subtree(lowest_[static_cast<size_t>(root)], root);
+      for (const int32_t root : shares_[t]) {
+        const FactorView view = task.subtree(lowest_[root], root);
         for (int32_t s = root; s >= view.from; --s)
           backward_step(view, s, task.columns(view), work);
       }

@@ -17,18 +17,17 @@ constexpr const char* kCard = "*PRE-TENSION SECTION";
 /// The number of a cell in the deck.
 int32_t label(const Numbering& numbering, int32_t cell) {
   const FlatTable& table = numbering.table_of(cell);
-  return table.ids[static_cast<size_t>(cell - table.first)];
+  return table.ids[cell - table.first];
 }
 
 /// Cells with a node of the cut, ascending.
 std::vector<int32_t> cells_at(const Numbering& numbering, const std::vector<int32_t>& rows) {
   std::vector<bool> on_cut(static_cast<size_t>(numbering.nodes()), false);
-  for (const int32_t row : rows) on_cut[static_cast<size_t>(row)] = true;
+  for (const int32_t row : rows) on_cut[row] = true;
   std::vector<int32_t> cells;
   for (int32_t cell = 0; cell < numbering.cells(); ++cell) {
     const auto nodes = numbering.nodes_of(cell);
-    if (std::any_of(nodes.begin(), nodes.end(),
-                    [&](int32_t row) { return on_cut[static_cast<size_t>(row)]; }))
+    if (std::any_of(nodes.begin(), nodes.end(), [&](int32_t row) { return on_cut[row]; }))
       cells.push_back(cell);
   }
   return cells;

@@ -56,7 +56,7 @@ void copy_nodes(Model& model, const BoltCut& cut) {
     model.source.fail(cut.origin, fmt::format("{}: found no free numbers for its nodes", kName));
   mesh.nodes.conservativeResize(first + count, Eigen::NoChange);
   for (Eigen::Index i = 0; i < count; ++i) {
-    mesh.nodes.row(first + i) = model.numbering.at(cut.rows[static_cast<size_t>(i)]);
+    mesh.nodes.row(first + i) = model.numbering.at(cut.rows[i]);
     mesh.node_ids.push_back(highest + 1 + static_cast<int32_t>(i));
   }
   for (const int32_t cell : cut.cells) {
@@ -83,9 +83,8 @@ void cut_bolts(Model& model) {
       std::set_intersection(cut.rows.begin(), cut.rows.end(), other.rows.begin(), other.rows.end(),
                             std::back_inserter(common));
       if (!common.empty())
-        model.source.fail(card.origin(),
-                          fmt::format("{}: found node {} in two cuts, expected one", kName,
-                                      model.numbering.node_ids()[static_cast<size_t>(common[0])]));
+        model.source.fail(card.origin(), fmt::format("{}: found node {} in two cuts, expected one",
+                                                     kName, model.numbering.node_ids()[common[0]]));
     }
     copy_nodes(model, cut);
     model.cuts.push_back(std::move(cut));
@@ -106,7 +105,7 @@ void build_bolts(Model& model) {
       model.source.fail(card.origin(),
                         fmt::format("{}: found reference node {}, which has another use, expected "
                                     "one of no element",
-                                    kName, model.numbering.node_ids()[static_cast<size_t>(row)]));
+                                    kName, model.numbering.node_ids()[row]));
     Bolt bolt;
     bolt.where = model.source.where(card.origin());
     bolt.reference = model.node_map.require(row);

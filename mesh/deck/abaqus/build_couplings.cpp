@@ -155,12 +155,12 @@ std::vector<int32_t> rows_of_surface(Model& model, const Coupling& coupling) {
   const std::string name = surface_named(model, coupling.use, coupling.surface, origin);
   std::vector<bool> wanted(static_cast<size_t>(model.deck.mesh.nodes.rows()), false);
   for (const int32_t node : nodes_of(model.deck.mesh.surfaces.at(name))) {
-    wanted[static_cast<size_t>(node)] = true;
+    wanted[node] = true;
   }
   std::vector<int32_t> rows;
   for (int32_t row = 0; row < model.numbering.nodes(); ++row) {
     const int32_t node = model.node_map.mesh_node(row);
-    if (node != NodeMap::kNone && wanted[static_cast<size_t>(node)]) rows.push_back(row);
+    if (node != NodeMap::kNone && wanted[node]) rows.push_back(row);
   }
   return rows;
 }

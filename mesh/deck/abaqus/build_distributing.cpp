@@ -89,8 +89,7 @@ void read_distributing_coupling(Model& model, size_t use, const Card& card) {
     model.deck.notes.push_back(fmt::format(
         "{}: node {} of *DISTRIBUTING COUPLING is not at the weighted centre: the moment of its "
         "force is balanced, as in Abaqus; ignore = [\"MOMENT\"] loses it, as CalculiX does",
-        model.source.where(card.origin()),
-        model.numbering.node_ids()[static_cast<size_t>(element.node)]));
+        model.source.where(card.origin()), model.numbering.node_ids()[element.node]));
   }
   model.deck.distributing.push_back(std::move(distributing));
 }

@@ -140,10 +140,9 @@ BasicTerms basic_terms(Model& model, const RawEquation& equation) {
     const NodeIndex node_index = rotated == NodeMap::kNone ? node_map.require(term.row) : rotated;
     const int direction = rotated == NodeMap::kNone ? term.direction : term.direction + 3;
     if (direction > 5 || (direction > 2 && !node_map.is_point(node_index))) {
-      model.source.fail(
-          equation.origin,
-          fmt::format("found rotation {} of node {}, which has no rotations", term.direction + 1,
-                      model.numbering.node_ids()[static_cast<size_t>(term.row)]));
+      model.source.fail(equation.origin,
+                        fmt::format("found rotation {} of node {}, which has no rotations",
+                                    term.direction + 1, model.numbering.node_ids()[term.row]));
     }
     const std::string& system = node_map.displacement_system(term.row);
     if (system.empty()) {
@@ -169,7 +168,7 @@ void solve_for_node(Model& model, const std::vector<RawEquation>& equations, Nod
     int pivot = -1;
     for (int k = 0; k < 3; ++k) {
       const double c = std::abs(rows[i].coefficient(node_index, k));
-      if (!taken[static_cast<size_t>(k)] && c > 1e-9 * rows[i].largest() &&
+      if (!taken[k] && c > 1e-9 * rows[i].largest() &&
           (pivot < 0 || c > std::abs(rows[i].coefficient(node_index, pivot)))) {
         pivot = k;
       }
@@ -177,7 +176,7 @@ void solve_for_node(Model& model, const std::vector<RawEquation>& equations, Nod
     if (pivot < 0) {
       model.source.fail(equations[i].origin, "the equation repeats others of its first node");
     }
-    taken[static_cast<size_t>(pivot)] = true;
+    taken[pivot] = true;
     pivots.push_back(pivot);
     rows[i].scale(1.0 / rows[i].coefficient(node_index, pivot));
     for (size_t j = 0; j < rows.size(); ++j) {

@@ -114,7 +114,7 @@ std::vector<double> upper_triangle(const std::vector<double>& columns) {
   size_t next = 0;
   for (int j = 0; j < 6; ++j) {
     for (int i = 0; i <= j; ++i) {
-      const int a = kOurs[static_cast<size_t>(i)], b = kOurs[static_cast<size_t>(j)];
+      const int a = kOurs[i], b = kOurs[j];
       C(a, b) = C(b, a) = columns[next++];
     }
   }

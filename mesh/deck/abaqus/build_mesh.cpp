@@ -12,20 +12,20 @@ namespace {
 std::vector<int32_t> take_nodes(const Numbering& numbering, Mesh& mesh) {
   std::vector<int32_t> node(static_cast<size_t>(numbering.nodes()), NodeMap::kNone);
   for (const FlatTable& table : numbering.tables()) {
-    for (const int32_t row : table.nodes) node[static_cast<size_t>(row)] = 0;
+    for (const int32_t row : table.nodes) node[row] = 0;
   }
   int32_t count = 0;
   for (int32_t& n : node) {
     if (n == 0) n = count++;
   }
   mesh.nodes.resize(count, 3);
-  mesh.node_ids.resize(static_cast<size_t>(count));
+  mesh.node_ids.resize(count);
   mesh.deck.largest_node = numbering.highest_node();
   mesh.deck.largest_element = numbering.highest_element();
   for (size_t row = 0; row < node.size(); ++row) {
     if (node[row] == NodeMap::kNone) continue;
     mesh.nodes.row(node[row]) = numbering.at(static_cast<int32_t>(row));
-    mesh.node_ids[static_cast<size_t>(node[row])] = numbering.node_ids()[row];
+    mesh.node_ids[node[row]] = numbering.node_ids()[row];
   }
   return node;
 }
@@ -58,7 +58,7 @@ class Blocks {
       block.region = at.second.first;
       block.type = at.second.second;
       block.nodes.resize(cells, traits(block.type).nodes);
-      block.ids.reserve(static_cast<size_t>(cells));
+      block.ids.reserve(cells);
       blocks[at.second] = &block;
     }
     for_each_cell([&](const FlatTable& table, size_t cell, const Key& key) {

@@ -19,8 +19,8 @@ std::vector<int32_t> mpc_rows(Model& model, size_t use, const MpcLines& lines) {
     for (size_t i = 1; i < fields.size(); ++i) {
       if (fields.blank(i) || fields.text(i) == "0") continue;
       for (const int32_t row : model.sets.nodes_at(fields, i, use)) {
-        if (!known[static_cast<size_t>(row)]) rows.push_back(row);
-        known[static_cast<size_t>(row)] = true;
+        if (!known[row]) rows.push_back(row);
+        known[row] = true;
       }
     }
   }
@@ -28,8 +28,7 @@ std::vector<int32_t> mpc_rows(Model& model, size_t use, const MpcLines& lines) {
   for (const int32_t row : rows) {
     if (!model.node_map.displacement_system(row).empty()) {
       fields.fail(fmt::format("*MPC {}: node {} has *TRANSFORM, which is not supported here",
-                              fields.text(0),
-                              model.numbering.node_ids()[static_cast<size_t>(row)]));
+                              fields.text(0), model.numbering.node_ids()[row]));
     }
   }
   return rows;
@@ -83,7 +82,7 @@ void add_plane(Model& model, size_t use, const MpcLines& lines,
     const Eigen::Vector3d r = at(i) - at(0);
     if (std::abs(n.dot(r)) > kInLine * e.norm()) {
       fields.fail(fmt::format("*MPC PLANE: node {} is not in the plane of the others",
-                              model.numbering.node_ids()[static_cast<size_t>(rows[i])]));
+                              model.numbering.node_ids()[rows[i]]));
     }
     const double s = r.cross(g).dot(n) / normal.norm(), t = e.cross(r).dot(n) / normal.norm();
     equations.push_back(
@@ -115,7 +114,7 @@ void add_straight(Model& model, size_t use, const MpcLines& lines,
     const double s = r.dot(e) / e.squaredNorm();
     if ((r - s * e).norm() > kInLine * e.norm()) {
       fields.fail(fmt::format("*MPC STRAIGHT: node {} is not on the line of the others",
-                              model.numbering.node_ids()[static_cast<size_t>(rows[i])]));
+                              model.numbering.node_ids()[rows[i]]));
     }
     for (int k = 0; k < 3; ++k) {
       if (k == along) continue;
@@ -168,7 +167,7 @@ void add_mean_rotation(Model& model, size_t use, const MpcLines& lines,
   rows.pop_back();
   NodeMap& node_map = model.node_map;
   const Eigen::Vector3d axis = model.numbering.at(pilot);
-  const int32_t id = model.numbering.node_ids()[static_cast<size_t>(pilot)];
+  const int32_t id = model.numbering.node_ids()[pilot];
   if (node_map.mesh_node(pilot) != NodeMap::kNone || !(axis.norm() > 0.0)) {
     fields.fail(
         fmt::format("*MPC MEANROT: found node {}, expected one of its own whose coordinates "
@@ -186,7 +185,7 @@ void add_mean_rotation(Model& model, size_t use, const MpcLines& lines,
     const Eigen::Vector3d p = arm - arm.dot(a) * a;
     if (!(p.norm() > kInLine * arm.norm())) {
       fields.fail(fmt::format("*MPC MEANROT: node {} lies on the axis through the nodes' centre",
-                              model.numbering.node_ids()[static_cast<size_t>(row)]));
+                              model.numbering.node_ids()[row]));
     }
     weights.push_back(a.cross(p) / (p.squaredNorm() * static_cast<double>(rows.size())));
     mean += weights.back() / static_cast<double>(rows.size());

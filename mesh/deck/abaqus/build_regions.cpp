@@ -74,11 +74,11 @@ class Sections {
     }
     for (const int32_t element : elements) {
       if (element >= n_cells) break;
-      int32_t& at = region_[static_cast<size_t>(element)];
+      int32_t& at = region_[element];
       if (at != kNoRegion) {
         model_.source.fail(card.origin(),
                            fmt::format("element {} has a section already: {}", id_of(element),
-                                       model_.deck.regions[static_cast<size_t>(at)].where));
+                                       model_.deck.regions[at].where));
       }
       at = region;
     }
@@ -88,21 +88,20 @@ class Sections {
   void split(size_t use, const Fields& fields) {
     std::vector<bool> turns(region_.size(), false);
     for (const int32_t element : model_.sets.elements_or_all(fields, 0, use)) {
-      if (element < model_.numbering.cells()) turns[static_cast<size_t>(element)] = true;
+      if (element < model_.numbering.cells()) turns[element] = true;
     }
     std::vector<bool> stays(model_.deck.regions.size(), false);
     for (size_t cell = 0; cell < region_.size(); ++cell) {
-      if (!turns[cell] && region_[cell] != kNoRegion)
-        stays[static_cast<size_t>(region_[cell])] = true;
+      if (!turns[cell] && region_[cell] != kNoRegion) stays[region_[cell]] = true;
     }
     std::map<int32_t, int32_t> part;  // of a region that does not rotate entirely
     for (size_t cell = 0; cell < region_.size(); ++cell) {
       const int32_t parent = region_[cell];
-      if (!turns[cell] || parent == kNoRegion || !stays[static_cast<size_t>(parent)]) continue;
+      if (!turns[cell] || parent == kNoRegion || !stays[parent]) continue;
       const auto [at, is_new] = part.emplace(parent, 0);
       if (is_new) {
-        const Region region = model_.deck.regions[static_cast<size_t>(parent)];
-        const std::string name = model_.deck.mesh.regions[static_cast<size_t>(parent)];
+        const Region region = model_.deck.regions[parent];
+        const std::string name = model_.deck.mesh.regions[parent];
         at->second = new_region(model_.numbering.main_use(),
                                 fmt::format("{}_{}", name, fields.text(0)), fields.origin());
         model_.deck.regions.back() = region;
@@ -146,7 +145,7 @@ class Sections {
       if (region == kNoRegion) region = new_region(key.first, set->name, key.second);
     }
     for (size_t cell = 0; cell < block.size(); ++cell) {
-      if (block[cell] != kNoRegion) region_[cell] = region_of[static_cast<size_t>(block[cell])];
+      if (block[cell] != kNoRegion) region_[cell] = region_of[block[cell]];
     }
     if (std::find(region_.begin(), region_.end(), kNoRegion) == region_.end()) return;
     const int32_t rest = new_region(model_.numbering.main_use(), "solid", 0);
@@ -163,7 +162,7 @@ class Sections {
     };
     std::vector<int64_t> size(region_of.size(), 0);
     for (const int32_t b : block) {
-      if (b != kNoRegion) ++size[static_cast<size_t>(b)];
+      if (b != kNoRegion) ++size[b];
     }
     std::vector<Union> unions;
     for (size_t u = 0; u < model_.numbering.uses().size(); ++u) {
@@ -174,12 +173,12 @@ class Sections {
         if (std::any_of(set.chunks.begin(), set.chunks.end(), reads_rows)) continue;
         std::map<int32_t, int64_t> found;
         for (const int32_t element : model_.sets.elements(u, set.name, set.chunks.front().origin)) {
-          if (element < model_.numbering.cells()) ++found[block[static_cast<size_t>(element)]];
+          if (element < model_.numbering.cells()) ++found[block[element]];
         }
         Union one{u, &set, {}};
         bool complete = !found.empty();
         for (const auto& [b, count] : found) {
-          complete = complete && b != kNoRegion && count == size[static_cast<size_t>(b)];
+          complete = complete && b != kNoRegion && count == size[b];
           one.blocks.push_back(b);
         }
         if (complete) unions.push_back(std::move(one));
@@ -190,10 +189,10 @@ class Sections {
              std::pair(b.blocks.size(), b.set->chunks.front().origin);
     });
     for (const Union& one : unions) {
-      const auto taken = [&](int32_t b) { return region_of[static_cast<size_t>(b)] != kNoRegion; };
+      const auto taken = [&](int32_t b) { return region_of[b] != kNoRegion; };
       if (std::any_of(one.blocks.begin(), one.blocks.end(), taken)) continue;
       const int32_t region = new_region(one.use, one.set->name, one.set->chunks.front().origin);
-      for (const int32_t b : one.blocks) region_of[static_cast<size_t>(b)] = region;
+      for (const int32_t b : one.blocks) region_of[b] = region;
     }
   }
 
@@ -207,26 +206,25 @@ class Sections {
 
   int32_t id_of(int32_t cell) const {
     const FlatTable& table = model_.numbering.table_of(cell);
-    return table.ids[static_cast<size_t>(cell - table.first)];
+    return table.ids[cell - table.first];
   }
 
   void add_formulation(int32_t cell) {
     const FlatTable& table = model_.numbering.table_of(cell);
-    const Origin origin = table.origins[static_cast<size_t>(cell - table.first)];
-    const int32_t region = region_[static_cast<size_t>(cell)];
+    const Origin origin = table.origins[cell - table.first];
+    const int32_t region = region_[cell];
     if (region == kNoRegion) {
       model_.source.fail(origin, fmt::format("element {} has no *SOLID SECTION", id_of(cell)));
     }
     if (table.formulation == Formulation::kDefault) return;
-    const auto [at, is_new] = model_.deck.regions[static_cast<size_t>(region)].formulation.emplace(
-        table.type, table.formulation);
+    const auto [at, is_new] =
+        model_.deck.regions[region].formulation.emplace(table.type, table.formulation);
     if (at->second != table.formulation) {
       model_.source.fail(origin,
                          fmt::format("element {} is a {}, but others of its section {} "
                                      "are integrated differently: give them sections of "
                                      "their own",
-                                     id_of(cell), table.name,
-                                     model_.deck.mesh.regions[static_cast<size_t>(region)]));
+                                     id_of(cell), table.name, model_.deck.mesh.regions[region]));
     }
   }
 

@@ -230,13 +230,13 @@ void build_initial_temperature(Model& model) {
                         "*INITIAL CONDITIONS: expected TYPE=TEMPERATURE; ignore = "
                         "[\"*INITIAL CONDITIONS\"] skips all of them");
     }
-    model.initial.resize(static_cast<size_t>(model.numbering.nodes()), 0.0);
+    model.initial.resize(model.numbering.nodes(), 0.0);
     for (size_t i = 0; i < card.size(); ++i) {
       const Fields fields = card.line(i, model.source);
       fields.at_most(2, "nodes, temperature");
       const double value = fields.number(1, "temperature");
       for (const int32_t row : model.sets.nodes_at(fields, 0, use)) {
-        model.initial[static_cast<size_t>(row)] = value;
+        model.initial[row] = value;
       }
     }
   });

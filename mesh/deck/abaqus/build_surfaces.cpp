@@ -23,11 +23,10 @@ struct Candidate {
 // Faces of all other cells whose nodes are all selected.
 void add_neighbours(const Numbering& numbering, const std::vector<bool>& chosen,
                     const std::vector<bool>& selected, std::vector<Candidate>& faces) {
-  const auto is_selected = [&](int32_t row) { return selected[static_cast<size_t>(row)]; };
+  const auto is_selected = [&](int32_t row) { return selected[row]; };
   for (int32_t cell = 0; cell < numbering.cells(); ++cell) {
     const auto nodes = numbering.nodes_of(cell);
-    if (chosen[static_cast<size_t>(cell)] ||
-        std::count_if(nodes.begin(), nodes.end(), is_selected) < 3) {
+    if (chosen[cell] || std::count_if(nodes.begin(), nodes.end(), is_selected) < 3) {
       continue;
     }
     for (int32_t f = 0; f < face_count(numbering, cell); ++f) {
@@ -47,12 +46,12 @@ std::vector<CellFaceId> free_faces(const Numbering& numbering, const std::vector
   std::vector<bool> chosen(static_cast<size_t>(numbering.cells()), false);
   std::vector<bool> selected(static_cast<size_t>(numbering.nodes()), false);
   for (const int32_t cell : cells) {
-    chosen[static_cast<size_t>(cell)] = true;
+    chosen[cell] = true;
     for (int32_t f = 0; f < face_count(numbering, cell); ++f) {
       const FaceRows face = face_rows(numbering, {cell, f});
       if (!std::all_of(face.begin(), face.end(), wanted)) continue;
       all.push_back({sorted_corners(face), {cell, f}, true});
-      for (const int32_t row : face) selected[static_cast<size_t>(row)] = true;
+      for (const int32_t row : face) selected[row] = true;
     }
   }
   add_neighbours(numbering, chosen, selected, all);
@@ -168,11 +167,10 @@ class SurfaceReader {
           {}, static_cast<size_t>(one->count), static_cast<size_t>(traits(*one->face).corners)};
       std::copy_n(one->nodes.begin(), one->count, face.rows.begin());
       wanted.insert(sorted_corners(face));
-      for (const int32_t row : face) selected[static_cast<size_t>(row)] = true;
+      for (const int32_t row : face) selected[row] = true;
     }
     std::vector<Candidate> all;
-    add_neighbours(numbering_, std::vector<bool>(static_cast<size_t>(numbering_.cells()), false),
-                   selected, all);
+    add_neighbours(numbering_, std::vector<bool>(numbering_.cells(), false), selected, all);
     for (const Candidate& one : all) {
       if (wanted.erase(one.corners) > 0) faces.push_back(one.id);
     }
@@ -199,7 +197,7 @@ std::string add_surface(Model& model, const std::string& name,
     FaceRows face = face_rows(model.numbering, id);
     for (int32_t& row : face.rows) row = model.node_map.mesh_node_of(id.first, row);
     const CellType type = model.numbering.table_of(id.first).type;
-    surface.add(traits(type).faces[static_cast<size_t>(id.second)].type, face.rows);
+    surface.add(traits(type).faces[id.second].type, face.rows);
   }
   auto& surfaces = model.deck.mesh.surfaces;
   std::string free_name = name;
@@ -254,10 +252,8 @@ std::string surface_of_nodes(Model& model, const std::vector<int32_t>& rows,
                              const std::string& name, Origin origin) {
   const Numbering& numbering = model.numbering;
   std::vector<bool> wanted(static_cast<size_t>(numbering.nodes()), false);
-  for (const int32_t row : rows) wanted[static_cast<size_t>(row)] = true;
-  const auto is_requested = [&](int32_t row) {
-    return static_cast<bool>(wanted[static_cast<size_t>(row)]);
-  };
+  for (const int32_t row : rows) wanted[row] = true;
+  const auto is_requested = [&](int32_t row) { return static_cast<bool>(wanted[row]); };
   std::vector<int32_t> cells;
   for (int32_t cell = 0; cell < numbering.cells(); ++cell) {
     const auto nodes = numbering.nodes_of(cell);
@@ -265,13 +261,13 @@ std::string surface_of_nodes(Model& model, const std::vector<int32_t>& rows,
   }
   const auto faces = free_faces(numbering, cells, is_requested);
   for (const CellFaceId& id : faces) {
-    for (const int32_t row : face_rows(numbering, id)) wanted[static_cast<size_t>(row)] = false;
+    for (const int32_t row : face_rows(numbering, id)) wanted[row] = false;
   }
   for (const int32_t row : rows) {
-    if (!wanted[static_cast<size_t>(row)]) continue;
+    if (!wanted[row]) continue;
     model.source.fail(origin, fmt::format("surface {} of nodes: node {} belongs to no outer face "
                                           "whose nodes all belong to it, expected complete faces",
-                                          name, numbering.node_ids()[static_cast<size_t>(row)]));
+                                          name, numbering.node_ids()[row]));
   }
   return add_surface(model, name, faces);
 }

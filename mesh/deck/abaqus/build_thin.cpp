@@ -58,14 +58,14 @@ class ThinElements {
                     for (const int32_t element : model_.sets.elements(
                              use, keyword.required("ELSET", model_.source), card.origin())) {
                       const int32_t thin = element - numbering_.first_thin();
-                      if (thin >= 0) section_[static_cast<size_t>(thin)] = &card;
+                      if (thin >= 0) section_[thin] = &card;
                     }
                   });
   }
 
   bool on_solids(const ThinElement& one) const {
     for (int32_t i = 0; i < one.count; ++i) {
-      if (model_.node_map.mesh_node(one.nodes[static_cast<size_t>(i)]) == NodeMap::kNone) {
+      if (model_.node_map.mesh_node(one.nodes[i]) == NodeMap::kNone) {
         return false;
       }
     }
@@ -123,7 +123,7 @@ class ThinElements {
     for (const size_t t : members) {
       if (all_[t].face) faces.push_back(skin_of_[t]);
       for (int32_t i = 0; !all_[t].face && i < all_[t].count; ++i) {
-        nodes.push_back(model_.node_map.mesh_node(all_[t].nodes[static_cast<size_t>(i)]));
+        nodes.push_back(model_.node_map.mesh_node(all_[t].nodes[i]));
       }
     }
     skins_.add_surface(name, faces);

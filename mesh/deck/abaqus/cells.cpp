@@ -76,7 +76,7 @@ unsigned corners_of(CellType type, size_t face) {
   const CellFace& cell_face = traits(type).faces[face];
   unsigned out = 0;
   for (int i = 0; i < traits(cell_face.type).corners; ++i) {
-    out |= 1u << cell_face.nodes[static_cast<size_t>(i)];
+    out |= 1u << cell_face.nodes[i];
   }
   return out;
 }
@@ -149,7 +149,7 @@ int face_of_number(CellType type, int number) {
   const auto wanted = numbered_faces(type);
   if (number < 1 || number > static_cast<int>(wanted.size())) return -1;
   for (size_t f = 0; f < wanted.size(); ++f) {
-    if (corners_of(type, f) == wanted[static_cast<size_t>(number - 1)]) return static_cast<int>(f);
+    if (corners_of(type, f) == wanted[number - 1]) return static_cast<int>(f);
   }
   return -1;
 }

@@ -8,15 +8,14 @@ namespace clatter::mesh::deck::abaqus {
 
 FaceRows face_rows(const Numbering& numbering, CellFaceId id) {
   const CellType type = numbering.table_of(id.first).type;
-  const CellFace& face = traits(type).faces[static_cast<size_t>(id.second)];
+  const CellFace& face = traits(type).faces[id.second];
   const std::span<const int> p = traits(type).to_abaqus;
   const auto rows = numbering.nodes_of(id.first);
   FaceRows out{{},
                static_cast<size_t>(traits(face.type).nodes),
                static_cast<size_t>(traits(face.type).corners)};
   for (size_t i = 0; i < out.count; ++i) {
-    out.rows[i] =
-        rows[static_cast<size_t>(std::find(p.begin(), p.end(), face.nodes[i]) - p.begin())];
+    out.rows[i] = rows[std::find(p.begin(), p.end(), face.nodes[i]) - p.begin()];
   }
   return out;
 }

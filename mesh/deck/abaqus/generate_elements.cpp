@@ -60,7 +60,7 @@ class ElementGenerator : Generator {
       copy.id = new_id;
       copy.origin = origin;
       for (int32_t i = 0; i < copy.count; ++i) {
-        int32_t& at = copy.nodes[static_cast<size_t>(i)];
+        int32_t& at = copy.nodes[i];
         at = number(at + node, origin);
       }
       scope_.thin.push_back(std::move(copy));

@@ -48,7 +48,7 @@ void Loads::read_forces(size_t use, const Card& card, StepNumber step) {
     const double value = factor * fields.number(2, "force");
     for (const int32_t row : model_->sets.nodes_at(fields, 0, use)) {
       const auto [node_index, dofs] = held_dofs(*model_, row, static_cast<DofMask>(1 << (dof - 1)));
-      const int32_t id = model_->numbering.node_ids()[static_cast<size_t>(row)];
+      const int32_t id = model_->numbering.node_ids()[row];
       if (node_index == NodeMap::kNone) {
         fields.fail(fmt::format("found a force on node {}, which belongs to no element", id));
       }
@@ -124,9 +124,9 @@ void Loads::add_rotation(size_t use, const Fields& fields, double factor, StepNu
   }
   rotation.step = step;
   rotation.origin = fields.origin();
-  rotation.covered.resize(static_cast<size_t>(model_->numbering.cells()), false);
+  rotation.covered.resize(model_->numbering.cells(), false);
   for (const int32_t element : model_->sets.elements_or_all(fields, 0, use)) {
-    if (element < model_->numbering.cells()) rotation.covered[static_cast<size_t>(element)] = true;
+    if (element < model_->numbering.cells()) rotation.covered[element] = true;
   }
   // Replaces the value of an earlier step on the same elements.
   std::erase_if(rotations_, [&](const Rotation& other) {
@@ -173,11 +173,11 @@ void Loads::add_acceleration(size_t use, const Fields& fields, const Eigen::Vect
                              StepNumber step) {
   Gravity& gravity = gravity_[{a[0], a[1], a[2]}];
   if (gravity.step != step) gravity = Gravity();
-  gravity.covered.resize(static_cast<size_t>(model_->numbering.cells()), false);
+  gravity.covered.resize(model_->numbering.cells(), false);
   gravity.step = step;
   gravity.origin = fields.origin();
   for (const int32_t element : model_->sets.elements_or_all(fields, 0, use)) {
-    if (element < model_->numbering.cells()) gravity.covered[static_cast<size_t>(element)] = true;
+    if (element < model_->numbering.cells()) gravity.covered[element] = true;
   }
   // Ends gravity of an earlier step on these elements: there is one field for all of them.
   std::erase_if(gravity_, [&](const auto& entry) { return entry.second.step != step; });
@@ -199,9 +199,8 @@ void Loads::read_pressures(size_t use, const Card& card, StepNumber step) {
 }
 
 std::vector<double> Loads::initial_field() const {
-  return model_->initial.empty()
-             ? std::vector<double>(static_cast<size_t>(model_->numbering.nodes()), 0.0)
-             : model_->initial;
+  return model_->initial.empty() ? std::vector<double>(model_->numbering.nodes(), 0.0)
+                                 : model_->initial;
 }
 
 void Loads::read_temperatures(size_t use, const Card& card, StepNumber) {
@@ -212,7 +211,7 @@ void Loads::read_temperatures(size_t use, const Card& card, StepNumber) {
     fields.at_most(2, "nodes, temperature");
     const double value = factor * fields.number(1, "temperature");
     for (const int32_t row : model_->sets.nodes_at(fields, 0, use)) {
-      temperature_[static_cast<size_t>(row)] = value;
+      temperature_[row] = value;
     }
   }
 }

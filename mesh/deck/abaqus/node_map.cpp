@@ -26,7 +26,7 @@ bool NodeMap::is_point(NodeIndex node_index) const {
 NodeIndex NodeMap::add_point(int32_t row) {
   const auto node_index =
       static_cast<NodeIndex>(deck_.mesh.nodes.rows() + static_cast<int64_t>(deck_.points.size()));
-  deck_.points.push_back({numbering_.node_ids()[static_cast<size_t>(row)], numbering_.at(row)});
+  deck_.points.push_back({numbering_.node_ids()[row], numbering_.at(row)});
   point_of_[row] = node_index;
   return node_index;
 }
@@ -42,17 +42,15 @@ NodeIndex NodeMap::rotation_of(int32_t row) const {
 }
 
 void NodeMap::set_displacement_system(const std::vector<int32_t>& rows, const std::string& name) {
-  if (system_of_.empty()) system_of_.assign(static_cast<size_t>(numbering_.nodes()), 0);
+  if (system_of_.empty()) system_of_.assign(numbering_.nodes(), 0);
   for (const int32_t row : rows) {
-    system_of_[static_cast<size_t>(row)] = static_cast<int32_t>(system_names_.size());
+    system_of_[row] = static_cast<int32_t>(system_names_.size());
   }
   system_names_.push_back(name);
 }
 
 const std::string& NodeMap::displacement_system(int32_t row) const {
-  return system_of_.empty()
-             ? system_names_.front()
-             : system_names_[static_cast<size_t>(system_of_[static_cast<size_t>(row)])];
+  return system_of_.empty() ? system_names_.front() : system_names_[system_of_[row]];
 }
 
 }  // namespace clatter::mesh::deck::abaqus

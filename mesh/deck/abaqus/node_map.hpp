@@ -27,7 +27,7 @@ class NodeMap {
   /// The same, kNone for a node without cells that nothing else requested: it has no stiffness.
   NodeIndex find(int32_t row) const;
   /// The mesh node, whatever has its rotations; kNone for points.
-  int32_t mesh_node(int32_t row) const { return mesh_node_[static_cast<size_t>(row)]; }
+  int32_t mesh_node(int32_t row) const { return mesh_node_[row]; }
   /// Cell `cell` has the mesh node `copy` in place of that of `row`.
   void set_copy(int32_t cell, int32_t row, int32_t copy) { copies_[{cell, row}] = copy; }
   /// The mesh node of `row` in a cell.

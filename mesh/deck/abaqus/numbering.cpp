@@ -58,10 +58,9 @@ void Numbering::index_scope(const Scope& scope) {
     const double* a = nodes.xyz.data() + 3 * int64_t{first};
     const double* b = nodes.xyz.data() + 3 * int64_t{second};
     if (std::equal(a, a + 3, b)) continue;
-    source_.fail(nodes.origins[static_cast<size_t>(second)],
-                 fmt::format("node {}: found another one with this number at {}",
-                             nodes.ids[static_cast<size_t>(second)],
-                             source_.where(nodes.origins[static_cast<size_t>(first)])));
+    source_.fail(nodes.origins[second],
+                 fmt::format("node {}: found another one with this number at {}", nodes.ids[second],
+                             source_.where(nodes.origins[first])));
   }
   std::vector<int32_t> ids;
   std::vector<Origin> origins;
@@ -83,11 +82,9 @@ void Numbering::index_scope(const Scope& scope) {
   for (const auto& [first, second] : element_index_.back().duplicates()) {
     if (first >= known && second >= known) continue;
     const auto [here, other] = second < known ? std::pair(second, first) : std::pair(first, second);
-    const std::string where =
-        other < known ? " at " + source_.where(origins[static_cast<size_t>(other)]) : "";
-    source_.fail(origins[static_cast<size_t>(here)],
-                 fmt::format("element {}: found another one with this number{}",
-                             ids[static_cast<size_t>(first)], where));
+    const std::string where = other < known ? " at " + source_.where(origins[other]) : "";
+    source_.fail(origins[here], fmt::format("element {}: found another one with this number{}",
+                                            ids[first], where));
   }
 }
 
@@ -133,7 +130,7 @@ void Numbering::add_nodes(Scope& scope, Use& use) {
 }
 
 int32_t Numbering::row_of(const Use& use, int32_t id, Origin origin) const {
-  const int32_t local = node_index_[static_cast<size_t>(use.index)].find(id);
+  const int32_t local = node_index_[use.index].find(id);
   if (local < 0) source_.fail(origin, fmt::format("found no node {}", id));
   return use.first_node + local;
 }
@@ -142,10 +139,10 @@ int32_t Numbering::row_of(const Use& use, int32_t id, Origin origin) const {
 const Use& Numbering::use_of(const Scope& scope, const Use& own, int32_t instance,
                              Origin origin) const {
   if (instance == 0) return own;
-  const std::string& name = scope.other_instances[static_cast<size_t>(instance - 1)];
+  const std::string& name = scope.other_instances[instance - 1];
   const int use = find_use(name);
   if (use < 0) source_.fail(origin, fmt::format("found no instance {}", shown(name)));
-  return uses_[static_cast<size_t>(use)];
+  return uses_[use];
 }
 
 void Numbering::add_cells(Scope& scope, Use& use) {
@@ -219,16 +216,15 @@ std::string Numbering::public_name(size_t use, const std::string& name) const {
 }
 
 int32_t Numbering::find_node(size_t use, int32_t id) const {
-  const int32_t local = node_index_[static_cast<size_t>(uses_[use].index)].find(id);
+  const int32_t local = node_index_[uses_[use].index].find(id);
   return local < 0 ? -1 : uses_[use].first_node + local;
 }
 
 std::vector<int32_t> Numbering::find_nodes(size_t use, const IdRange& range) const {
   const Use& at = uses_[use];
   std::vector<int32_t> rows;
-  node_index_[static_cast<size_t>(at.index)].for_each(
-      range.first, range.last, range.step,
-      [&](int32_t local) { rows.push_back(at.first_node + local); });
+  node_index_[at.index].for_each(range.first, range.last, range.step,
+                                 [&](int32_t local) { rows.push_back(at.first_node + local); });
   return rows;
 }
 
@@ -245,12 +241,12 @@ int32_t Numbering::element_at(const Use& use, int32_t local) const {
 
 const PointElement* Numbering::point(int32_t element) const {
   if (element < cells_ || element >= first_thin()) return nullptr;
-  return &points_[static_cast<size_t>(element - cells_)];
+  return &points_[element - cells_];
 }
 
 const ThinElement* Numbering::thin(int32_t element) const {
   if (element < first_thin() || element >= elements()) return nullptr;
-  return &thin_[static_cast<size_t>(element - first_thin())];
+  return &thin_[element - first_thin()];
 }
 
 std::vector<int32_t> Numbering::rows_of(int32_t element) const {
@@ -266,17 +262,16 @@ std::vector<int32_t> Numbering::rows_of(int32_t element) const {
 
 int32_t Numbering::find_element(size_t use, int32_t id) const {
   const Use& at = uses_[use];
-  return element_at(at, element_index_[static_cast<size_t>(at.index)].find(id));
+  return element_at(at, element_index_[at.index].find(id));
 }
 
 std::vector<int32_t> Numbering::find_elements(size_t use, const IdRange& range) const {
   const Use& at = uses_[use];
   std::vector<int32_t> found;
-  element_index_[static_cast<size_t>(at.index)].for_each(
-      range.first, range.last, range.step, [&](int32_t local) {
-        const int32_t element = element_at(at, local);
-        if (element != kIgnored) found.push_back(element);
-      });
+  element_index_[at.index].for_each(range.first, range.last, range.step, [&](int32_t local) {
+    const int32_t element = element_at(at, local);
+    if (element != kIgnored) found.push_back(element);
+  });
   return found;
 }
 

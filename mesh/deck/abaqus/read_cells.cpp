@@ -197,7 +197,7 @@ Lines::Kind read_thin(Lines& lines, const std::string& type, Scope& scope, SetCh
           },
           [&](std::string_view node) {
             ThinElement& thin = scope.thin.back();
-            thin.nodes[static_cast<size_t>(thin.count++)] = node_of(node, lines);
+            thin.nodes[thin.count++] = node_of(node, lines);
           });
 }
 

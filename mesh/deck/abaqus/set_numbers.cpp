@@ -51,7 +51,7 @@ class SetNumbers {
   void add_chunk(const SetChunk& chunk, std::vector<int32_t>& out) {
     add(chunk.ids, chunk.origin, out);
     for (int32_t row = chunk.row_begin; row < chunk.row_end; ++row) {
-      out.push_back(rows_of(chunk)[static_cast<size_t>(row)]);
+      out.push_back(rows_of(chunk)[row]);
     }
     for (const IdRange& range : chunk.ranges) {
       for (int64_t id = range.first; id <= range.last; id += range.step) {
@@ -64,7 +64,7 @@ class SetNumbers {
 
   const std::vector<int32_t>& rows_of(const SetChunk& chunk) const {
     if (&sets_ == &scope_.node_sets) return scope_.nodes.ids;
-    return scope_.cells[static_cast<size_t>(chunk.table)].ids;
+    return scope_.cells[chunk.table].ids;
   }
 
   const Scope& scope_;

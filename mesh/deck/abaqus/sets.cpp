@@ -46,7 +46,7 @@ const std::vector<int32_t>& Sets::elements(size_t use, const std::string& name, 
 }
 
 const std::vector<int32_t>& Sets::resolve(Kind kind, const Key& key, Origin origin) {
-  const auto [at, is_new] = done_[static_cast<size_t>(kind)].try_emplace(key);
+  const auto [at, is_new] = done_[kind].try_emplace(key);
   Entry& entry = at->second;
   if (entry.done) return entry.members;
   const char* what = kind == Kind::kNodes ? "node set" : "element set";
@@ -113,7 +113,7 @@ void Sets::compact(std::vector<int32_t>& out) const {
       static_cast<size_t>(numbering_.nodes()) + static_cast<size_t>(numbering_.elements());
   if (out.size() <= 4 * all + 4096) return;
   std::vector<bool> is_member(all, false);
-  for (const int32_t member : out) is_member[static_cast<size_t>(member)] = true;
+  for (const int32_t member : out) is_member[member] = true;
   out.clear();
   for (size_t member = 0; member < all; ++member) {
     if (is_member[member]) out.push_back(static_cast<int32_t>(member));
@@ -128,7 +128,7 @@ void Sets::add_rows(Kind kind, size_t use, const SetChunk& chunk, std::vector<in
       const size_t table = static_cast<size_t>(at.first_table + chunk.table);
       out.push_back(numbering_.tables()[table].first + row);
     } else {
-      const int32_t id = numbering_.node_ids()[static_cast<size_t>(at.first_node + row)];
+      const int32_t id = numbering_.node_ids()[at.first_node + row];
       out.push_back(numbering_.find_node(use, id - at.node_offset));
     }
   }

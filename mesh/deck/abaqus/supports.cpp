@@ -143,10 +143,9 @@ void Supports::hold(int32_t row, DofMask mask, double value, StepNumber step, Or
     const auto [at, is_new] = held_.emplace(std::pair(node_index, k), held);
     if (is_new) continue;
     if (at->second.step == step && at->second.value != value) {
-      model_->source.fail(origin,
-                          fmt::format("node {} is fixed at {} and at {} in direction {}",
-                                      model_->numbering.node_ids()[static_cast<size_t>(row)],
-                                      at->second.value, value, k + 1));
+      model_->source.fail(
+          origin, fmt::format("node {} is fixed at {} and at {} in direction {}",
+                              model_->numbering.node_ids()[row], at->second.value, value, k + 1));
     }
     // A repeated value keeps its first line.
     if (at->second.value != value || at->second.step != step) at->second = held;
@@ -170,7 +169,7 @@ std::vector<Support> Supports::list(const Supports* other) const {
     for (const auto& [node_index, mask] : node_indices) by_mask[mask].push_back(node_index);
     for (auto& [mask, members] : by_mask) {
       Support support;
-      support.where = cards_[static_cast<size_t>(std::get<0>(key))];
+      support.where = cards_[std::get<0>(key)];
       support.node_indices = std::move(members);
       support.dofs = mask;
       support.value = std::get<1>(key);

@@ -43,9 +43,8 @@ class AbaqusWriter {
     number_cells();
     text_.put("*HEADING\n{} (lengths in metres)\n*NODE\n", one_line(mesh_.name));
     for (Eigen::Index n = 0; n < mesh_.nodes.rows(); ++n) {
-      text_.put("{}, {}, {}, {}\n", node_ids_[static_cast<size_t>(n)],
-                abaqus_number(mesh_.nodes(n, 0)), abaqus_number(mesh_.nodes(n, 1)),
-                abaqus_number(mesh_.nodes(n, 2)));
+      text_.put("{}, {}, {}, {}\n", node_ids_[n], abaqus_number(mesh_.nodes(n, 0)),
+                abaqus_number(mesh_.nodes(n, 1)), abaqus_number(mesh_.nodes(n, 2)));
     }
     check_names(mesh_.regions);
     for (size_t b = 0; b < mesh_.cells.size(); ++b) write_cells(b);
@@ -93,7 +92,7 @@ class AbaqusWriter {
     if (known && all_different(all)) return;
     int32_t next = 0;
     for (size_t b = 0; b < mesh_.cells.size(); ++b) {
-      cell_ids_[b].resize(static_cast<size_t>(mesh_.cells[b].nodes.rows()));
+      cell_ids_[b].resize(mesh_.cells[b].nodes.rows());
       for (int32_t& id : cell_ids_[b]) id = ++next;
     }
   }
@@ -132,12 +131,12 @@ class AbaqusWriter {
           fmt::format("mesh '{}': Abaqus has no element for {}", mesh_.name, cell.name));
     }
     text_.put("*ELEMENT, TYPE={}, ELSET={}\n", cell.abaqus_name,
-              quoted(mesh_.regions[static_cast<size_t>(block.region)]));
+              quoted(mesh_.regions[block.region]));
     const std::span<const int> p = cell.to_abaqus;
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-      put_entry(cell_ids_[b][static_cast<size_t>(c)], 0, p.size() + 1);
+      put_entry(cell_ids_[b][c], 0, p.size() + 1);
       for (size_t i = 0; i < p.size(); ++i) {
-        put_entry(node_ids_[static_cast<size_t>(block.nodes(c, p[i]))], i + 1, p.size() + 1);
+        put_entry(node_ids_[block.nodes(c, p[i])], i + 1, p.size() + 1);
       }
     }
   }
@@ -145,7 +144,7 @@ class AbaqusWriter {
   void write_node_set(const std::string& name, const std::vector<int32_t>& nodes) {
     text_.put("*NSET, NSET={}\n", quoted(name));
     for (size_t i = 0; i < nodes.size(); ++i) {
-      put_entry(node_ids_[static_cast<size_t>(nodes[i])], i, nodes.size());
+      put_entry(node_ids_[nodes[i]], i, nodes.size());
     }
   }
 
@@ -153,7 +152,7 @@ class AbaqusWriter {
   void index_faces() {
     std::vector<bool> on_surface(static_cast<size_t>(mesh_.nodes.rows()), false);
     for (const auto& [name, surface] : mesh_.surfaces) {
-      for (const int32_t node : nodes_of(surface)) on_surface[static_cast<size_t>(node)] = true;
+      for (const int32_t node : nodes_of(surface)) on_surface[node] = true;
     }
     for (size_t b = 0; b < mesh_.cells.size(); ++b) {
       const CellBlock& block = mesh_.cells[b];
@@ -165,10 +164,10 @@ class AbaqusWriter {
           bool wanted = true;
           for (size_t i = 0; i < corners; ++i) {
             nodes[i] = block.nodes(c, faces[f].nodes[i]);
-            wanted = wanted && on_surface[static_cast<size_t>(nodes[i])];
+            wanted = wanted && on_surface[nodes[i]];
           }
           if (!wanted) continue;
-          faces_.push_back({turned(nodes, corners), cell_ids_[b][static_cast<size_t>(c)],
+          faces_.push_back({turned(nodes, corners), cell_ids_[b][c],
                             abaqus::number_of_face(block.type, static_cast<int>(f))});
         }
       }

@@ -28,7 +28,7 @@ std::optional<CdbCell> cdb_cell(int routine, const std::vector<size_t>& nodes) {
   if (nodes.size() != order.size() || std::count(nodes.begin(), nodes.end(), 0U) > 0)
     return std::nullopt;
   CdbCell cell{type, nodes};
-  for (size_t i = 0; i < nodes.size(); ++i) cell.nodes[static_cast<size_t>(order[i])] = nodes[i];
+  for (size_t i = 0; i < nodes.size(); ++i) cell.nodes[order[i]] = nodes[i];
   return cell;
 }
 

@@ -175,7 +175,7 @@ class Reader {
     }
     for (CellBlock& block : mesh.cells)
       for (Eigen::Index i = 0; i < block.nodes.size(); ++i)
-        block.nodes.data()[i] = row_[static_cast<size_t>(block.nodes.data()[i])];
+        block.nodes.data()[i] = row_[block.nodes.data()[i]];
   }
 
   void add_surfaces() {
@@ -226,10 +226,7 @@ class Reader {
       fail(
           fmt::format("{} lies within region '{}', expected a face of the boundary or between "
                       "regions; --ignore \"{}\" skips the group",
-                      what,
-                      deck_.mesh.regions[static_cast<size_t>(
-                          deck_.mesh.cells[static_cast<size_t>(face.block)].region)],
-                      group));
+                      what, deck_.mesh.regions[deck_.mesh.cells[face.block].region], group));
     return face;
   }
 

@@ -153,8 +153,7 @@ class MedReader {
       ++elements_;
       const size_t tag = numbers.empty() ? elements_ : static_cast<size_t>(numbers[e]);
       numbered_ = numbered_ && !numbers.empty() && tags_.insert(tag).second;
-      for (size_t i = 0; i < each; ++i)
-        nodes[static_cast<size_t>(kind->order[i])] = node_at(columns[i * count + e], at);
+      for (size_t i = 0; i < each; ++i) nodes[kind->order[i]] = node_at(columns[i * count + e], at);
       const auto groups =
           own.empty() ? std::vector<int>() : groups_of(element_groups_, own[e], kind->dim);
       tables_.add(kind->dim, kind->gmsh_type, type, groups, tag, nodes);

@@ -155,7 +155,7 @@ class Scanner {
           follow > count - done || tags < 0 || tags > 1000)
         fail(fmt::format("$Elements: found a block of type {}, {} elements, {} tags", type, follow,
                          tags));
-      const int rest = kNodes[static_cast<size_t>(type - 1)] + std::max(tags - 1, 0);
+      const int rest = kNodes[type - 1] + std::max(tags - 1, 0);
       for (int i = 0; i < follow; ++i) {
         const int element = read_int();
         if (element <= 0) fail(fmt::format("found element {}, expected a number > 0", element));

@@ -189,8 +189,7 @@ class UnvReader {
       fail(fmt::format("element {} of descriptor {} has {} nodes, expected {}", element.tag,
                        element.descriptor, element.nodes.size(), order.size()));
     std::vector<size_t> nodes(order.size());
-    for (size_t i = 0; i < order.size(); ++i)
-      nodes[static_cast<size_t>(order[i])] = element.nodes[i];
+    for (size_t i = 0; i < order.size(); ++i) nodes[order[i]] = element.nodes[i];
     for (const int group : groups) name_group(dim, group);
     tables_.add(dim, gmsh_type, std::to_string(element.descriptor), groups, element.tag, nodes);
   }

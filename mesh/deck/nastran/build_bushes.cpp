@@ -34,7 +34,7 @@ class Bush {
                                    [&](NodeIndex end) { return model_.node_map.is_point(end); });
     bool left_out = false;
     for (int k = 0; k < 6; ++k) {
-      const double stiffness = stiffness_[static_cast<size_t>(k)];
+      const double stiffness = stiffness_[k];
       if (!(stiffness > 0.0)) continue;
       if (k >= 3 && !turns) {
         left_out = true;
@@ -69,7 +69,7 @@ class Bush {
     if (raw_.orientation_grid != 0) {
       const int32_t row = model_.grids.find(raw_.orientation_grid);
       if (row < 0) fail(fmt::format("found no GRID {}", raw_.orientation_grid));
-      in_plane = vector(model_.raw.grids.at[static_cast<size_t>(row)]) - at_[0];
+      in_plane = vector(model_.raw.grids.at[row]) - at_[0];
     } else {
       const int32_t system = model_.node_map.displacement_system(ends_[0]);
       in_plane = model_.systems.directions(system, at_[0], raw_.origin) * vector(raw_.orientation);

@@ -111,7 +111,7 @@ class Link {
   MatrixXd motion_from_independent() {
     const auto n = static_cast<Eigen::Index>(independent_.size());
     MatrixXd R(n, 6);
-    for (Eigen::Index i = 0; i < n; ++i) R.row(i) = independent_[static_cast<size_t>(i)].motion;
+    for (Eigen::Index i = 0; i < n; ++i) R.row(i) = independent_[i].motion;
     const bool one_grid = std::count_if(raw_.independent.begin(), raw_.independent.end(),
                                         [](const RawLink::End& end) { return end.dofs != 0; }) == 1;
     Eigen::CompleteOrthogonalDecomposition<MatrixXd> qr;

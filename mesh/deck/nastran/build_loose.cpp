@@ -154,10 +154,10 @@ class Loose {
  private:
   bool is_point(NodeIndex index) const { return model_.node_map.is_point(index); }
   const Point& point(NodeIndex index) const {
-    return deck_.points[static_cast<size_t>(index - model_.node_map.node_count())];
+    return deck_.points[index - model_.node_map.node_count()];
   }
   bool is_loose(NodeIndex index) const {
-    return is_point(index) && is_loose_[static_cast<size_t>(index - model_.node_map.node_count())];
+    return is_point(index) && is_loose_[index - model_.node_map.node_count()];
   }
   template <class Relations>
   void join_all(const Relations& relations) {
@@ -187,7 +187,7 @@ class Loose {
   }
   void mark(std::vector<bool>& used) const {
     const auto use = [&](NodeIndex index) {
-      if (is_point(index)) used[static_cast<size_t>(index - model_.node_map.node_count())] = true;
+      if (is_point(index)) used[index - model_.node_map.node_count()] = true;
     };
     const auto use_all = [&](const auto& relations) {
       for (const auto& one : relations)

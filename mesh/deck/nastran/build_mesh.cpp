@@ -21,10 +21,9 @@ void check_cell_numbers(Model& model) {
   model.cells = IdIndex(ids);
   if (model.cells.duplicates().empty()) return;
   const auto& [first, second] = model.cells.duplicates().front();
-  const Origin here = origins[static_cast<size_t>(second)];
+  const Origin here = origins[second];
   model.source.fail(here, fmt::format("cell {}: found another one with this number at {}",
-                                      ids[static_cast<size_t>(second)],
-                                      model.source.where(origins[static_cast<size_t>(first)])));
+                                      ids[second], model.source.where(origins[first])));
 }
 
 // GRID numbers of the cells become rows of the GRID table. 0 for the rows that cells use.
@@ -44,7 +43,7 @@ std::vector<int32_t> find_rows(Model& model) {
                                                            block.ids[cell], block.nodes[i]));
       }
       block.nodes[i] = row;
-      mesh_node[static_cast<size_t>(row)] = 0;
+      mesh_node[row] = 0;
     }
     block.origins = {};
   }
@@ -88,20 +87,20 @@ void build_mesh(Model& model) {
     cells.ids = std::move(block.ids);
     cells.nodes.resize(static_cast<Eigen::Index>(cells.ids.size()), traits(block.type).nodes);
     int32_t* node = cells.nodes.data();
-    block.nodes.drain([&](int32_t row) { *node++ = mesh_node[static_cast<size_t>(row)]; });
+    block.nodes.drain([&](int32_t row) { *node++ = mesh_node[row]; });
     mesh.cells.push_back(std::move(cells));
   }
   for (const int32_t id : grids.ids) mesh.deck.largest_node = std::max(mesh.deck.largest_node, id);
   mesh.nodes.resize(count, 3);
-  mesh.node_ids.resize(static_cast<size_t>(count));
+  mesh.node_ids.resize(count);
   for (size_t row = 0; row < grids.size(); ++row) {
     const int32_t node = mesh_node[row];
     if (node == NodeMap::kNone) continue;
     mesh.nodes.row(node) << grids.at[row][0], grids.at[row][1], grids.at[row][2];
-    mesh.node_ids[static_cast<size_t>(node)] = grids.ids[row];
+    mesh.node_ids[node] = grids.ids[row];
   }
   for (const int32_t row : hanging_rows)
-    mesh.node_sets[kHangingMidSideNodes].push_back(mesh_node[static_cast<size_t>(row)]);
+    mesh.node_sets[kHangingMidSideNodes].push_back(mesh_node[row]);
   model.node_map.set_mesh_nodes(std::move(mesh_node));
   repair(model);
 }

@@ -102,7 +102,7 @@ std::vector<LoadedFace> faces_of_skins(Model& model, const RawSkinPressure& raw)
   std::vector<LoadedFace> faces;
   model.spend(model.skins->effort(raw.cells.first, raw.cells.last), raw.origin);
   model.skins->for_each(raw.cells.first, raw.cells.last, raw.cells.step, [&](int32_t row) {
-    const RawSkin& one = skins[static_cast<size_t>(row)];
+    const RawSkin& one = skins[row];
     const auto corners = std::span(one.grids).first(static_cast<size_t>(traits(one.type).corners));
     model.spend(16, raw.origin);
     if (const auto face = boundary_face(model, corners, raw.origin)) faces.push_back(*face);

@@ -52,7 +52,7 @@ void add(Model& model, const RawSpring& raw) {
     return;
   }
   Eigen::VectorXd c(static_cast<Eigen::Index>(terms.size()));
-  for (Eigen::Index i = 0; i < c.size(); ++i) c(i) = terms[static_cast<size_t>(i)].coefficient;
+  for (Eigen::Index i = 0; i < c.size(); ++i) c(i) = terms[i].coefficient;
   model.spend(16 * c.size() * c.size(), raw.origin);
   model.deck.matrices.push_back({fmt::format("cmass_{}", model.deck.matrices.size() + 1), where,
                                  true, terms,

@@ -16,11 +16,9 @@ std::vector<Step::NodalForce> forces_on_face(Model& model, const RawPressure& ra
   const FaceTraits& shape = traits(face.type);
   const FaceType linear = shape.corners == 3 ? FaceType::kTri3 : FaceType::kQuad4;
   Eigen::MatrixX3d x(shape.nodes, 3);
-  for (int a = 0; a < shape.nodes; ++a)
-    x.row(a) = model.deck.mesh.nodes.row(face.nodes[static_cast<size_t>(a)]);
+  for (int a = 0; a < shape.nodes; ++a) x.row(a) = model.deck.mesh.nodes.row(face.nodes[a]);
   Eigen::VectorXd p(shape.corners);
-  for (int c = 0; c < shape.corners; ++c)
-    p((face.first + c) % shape.corners) = raw.values[static_cast<size_t>(c)];
+  for (int c = 0; c < shape.corners; ++c) p((face.first + c) % shape.corners) = raw.values[c];
   Eigen::MatrixX3d force = Eigen::MatrixX3d::Zero(shape.nodes, 3);
   const FaceRule& rule = face_rule(face.type);
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
@@ -41,8 +39,7 @@ std::vector<Step::NodalForce> forces_on_face(Model& model, const RawPressure& ra
   std::vector<Step::NodalForce> out;
   for (int a = 0; a < shape.nodes; ++a)
     for (int d = 0; d < 3; ++d)
-      if (force(a, d) != 0.0)
-        out.push_back({face.nodes[static_cast<size_t>(a)], d, force(a, d), {}});
+      if (force(a, d) != 0.0) out.push_back({face.nodes[a], d, force(a, d), {}});
   return out;
 }
 

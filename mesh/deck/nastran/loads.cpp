@@ -150,7 +150,7 @@ void Loads::list_rotation(Step& step, const RawRotation& raw, double factor) {
   if (raw.grid != 0) {
     const int32_t row = model_.grids.find(raw.grid);
     if (row < 0) model_.source.fail(raw.origin, fmt::format("found no GRID {}", raw.grid));
-    rotation.point = vector(raw_.grids.at[static_cast<size_t>(row)]);
+    rotation.point = vector(raw_.grids.at[row]);
   }
   step.rotations.push_back(rotation);
 }
@@ -191,7 +191,7 @@ Vector3d Loads::vector_of(const RawForce& raw, NodeIndex node_index) const {
       const int32_t row = model_.grids.find(raw.along[from + k]);
       if (row < 0)
         model_.source.fail(raw.origin, fmt::format("found no GRID {}", raw.along[from + k]));
-      at[k] = vector(raw_.grids.at[static_cast<size_t>(row)]);
+      at[k] = vector(raw_.grids.at[row]);
     }
     return at[1] - at[0];
   };
@@ -224,7 +224,7 @@ RowMatrix Loads::temperatures(int32_t id, const TemperatureSet& set) {
     if (!std::isnan(values(node, 0))) continue;
     model_.source.fail(set.origin,
                        fmt::format("temperature set {}: found no TEMP of node {} and no TEMPD", id,
-                                   model_.deck.mesh.node_ids[static_cast<size_t>(node)]));
+                                   model_.deck.mesh.node_ids[node]));
   }
   return values;
 }

@@ -29,7 +29,7 @@ NodeIndex NodeMap::add_row() {
 }
 
 Eigen::Vector3d NodeMap::position(NodeIndex node_index) const {
-  if (is_point(node_index)) return deck_.points[static_cast<size_t>(node_index - node_count_)].at;
+  if (is_point(node_index)) return deck_.points[node_index - node_count_].at;
   return deck_.mesh.nodes.row(node_index).transpose();
 }
 

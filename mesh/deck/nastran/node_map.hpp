@@ -28,7 +28,7 @@ class NodeMap {
   NodeIndex find(size_t row) const { return index_of_row_[row]; }
   /// Row of a node index.
   size_t row_of(NodeIndex node_index) const {
-    return static_cast<size_t>(row_of_index_[static_cast<size_t>(node_index)]);
+    return static_cast<size_t>(row_of_index_[node_index]);
   }
   /// Nodes of the mesh.
   NodeIndex node_count() const { return node_count_; }

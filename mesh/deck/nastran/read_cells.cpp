@@ -168,9 +168,9 @@ void read_cell(const Card& card, RawDeck& raw) {
     const bool middle = static_cast<int>(i) >= cell.corners;
     if (middle && !has_node(card, kFirstNode + i)) continue;  // complete_cells() adds it
     const int32_t node = card.id(kFirstNode + i, "G");
-    nodes[static_cast<size_t>(cell.to_nastran[i])] = node;
+    nodes[cell.to_nastran[i]] = node;
   }
-  for (int i = 0; i < cell.nodes; ++i) block.nodes.push_back(nodes[static_cast<size_t>(i)]);
+  for (int i = 0; i < cell.nodes; ++i) block.nodes.push_back(nodes[i]);
   block.ids.push_back(id);
   block.origins.push_back(card.origin());
 }

@@ -32,10 +32,10 @@ class Numbers {
     }
   }
   int32_t node(int32_t index) const {
-    return mesh_.node_ids.empty() ? index + 1 : mesh_.node_ids[static_cast<size_t>(index)];
+    return mesh_.node_ids.empty() ? index + 1 : mesh_.node_ids[index];
   }
   int32_t cell(const CellBlock& block, Eigen::Index row) {
-    return block.ids.empty() ? ++last_cell_ : block.ids[static_cast<size_t>(row)];
+    return block.ids.empty() ? ++last_cell_ : block.ids[row];
   }
   /// Width of fields for all numbers.
   int width(int64_t more) const {

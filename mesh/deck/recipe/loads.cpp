@@ -99,10 +99,9 @@ class StepWriter {
     const Eigen::Vector3d unit = Eigen::Vector3d::Unit(force.direction % 3);
     if (force.system.empty()) return unit;
     const System& system = deck_.systems.at(force.system);
-    const Eigen::Vector3d at =
-        names_.is_point(force.node_index)
-            ? deck_.points[static_cast<size_t>(force.node_index - deck_.mesh.nodes.rows())].at
-            : Eigen::Vector3d(deck_.mesh.nodes.row(force.node_index));
+    const Eigen::Vector3d at = names_.is_point(force.node_index)
+                                   ? deck_.points[force.node_index - deck_.mesh.nodes.rows()].at
+                                   : Eigen::Vector3d(deck_.mesh.nodes.row(force.node_index));
     return axes_at(system, at) * unit;
   }
 

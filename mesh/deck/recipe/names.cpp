@@ -17,11 +17,11 @@ RecipeNames::RecipeNames(Deck& deck)
 
 int32_t RecipeNames::label(int32_t node) const {
   const std::vector<int32_t>& ids = deck_.mesh.node_ids;
-  return ids.empty() ? node + 1 : ids[static_cast<size_t>(node)];
+  return ids.empty() ? node + 1 : ids[node];
 }
 
 std::string RecipeNames::point(NodeIndex node_index) const {
-  const Point& point = deck_.points[static_cast<size_t>(node_index - n_nodes_)];
+  const Point& point = deck_.points[node_index - n_nodes_];
   return fmt::format("{}_{}", point.of_bolt ? "bolt" : "point", point.id);
 }
 

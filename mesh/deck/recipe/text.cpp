@@ -231,15 +231,14 @@ class RecipeWriter {
     if (dependent_.empty()) {
       dependent_.resize(static_cast<size_t>(deck_.mesh.nodes.rows()) + deck_.points.size(), false);
       for (const Rigid& rigid : deck_.rigid)
-        for (const NodeIndex one : rigid.dependents) dependent_[static_cast<size_t>(one)] = true;
+        for (const NodeIndex one : rigid.dependents) dependent_[one] = true;
       for (const Support& retained : deck_.retained)
         for (const NodeIndex one : retained.node_indices)
-          if (!retained.system.empty()) dependent_[static_cast<size_t>(one)] = true;
+          if (!retained.system.empty()) dependent_[one] = true;
       for (const Equation& equation : deck_.equations)
-        if (!equation.terms.empty())
-          dependent_[static_cast<size_t>(equation.terms[0].node_index)] = true;
+        if (!equation.terms.empty()) dependent_[equation.terms[0].node_index] = true;
     }
-    return dependent_[static_cast<size_t>(index)];
+    return dependent_[index];
   }
 
   void add_matrix(const NodalMatrix& matrix) {

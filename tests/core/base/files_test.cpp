@@ -85,9 +85,8 @@ TEST_F(Files, AppendedRowsAreTheRowsWrittenAtOnceUnderAnotherName) {
   for (int first = 0; first < 1003; first += 100) {
     const int count = std::min(100, 1003 - first);
     file.append("group/rows", all.middleRows(first, count));
-    file.append("numbers", std::vector<double>(static_cast<size_t>(count), first));
-    file.append_float("cells", std::vector<float>(static_cast<size_t>(6 * count), 0.5F),
-                      {count, 2, 3});
+    file.append("numbers", std::vector<double>(count, first));
+    file.append_float("cells", std::vector<float>(6 * count, 0.5F), {count, 2, 3});
   }
   file.append("group/rows", RowMatrix(0, 7));
   file.append("none", std::vector<double>());

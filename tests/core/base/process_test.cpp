@@ -37,7 +37,7 @@ TEST(Threads, PiecesCoverTheRangeOnceWhateverTheCount) {
     set_thread_count(count);
     std::vector<int> visits(100, 0);
     parallel_pieces(100, [&](int64_t begin, int64_t end) {
-      for (int64_t i = begin; i < end; ++i) ++visits[static_cast<size_t>(i)];
+      for (int64_t i = begin; i < end; ++i) ++visits[i];
     });
     EXPECT_EQ(visits, std::vector<int>(100, 1)) << count << " threads";
   }
@@ -61,7 +61,7 @@ bool nested_pieces_cover() {
   parallel_pieces(10, [&](int64_t begin, int64_t end) {
     for (int64_t k = begin; k < end; ++k)
       parallel_pieces(10, [&](int64_t first, int64_t last) {
-        for (int64_t i = first; i < last; ++i) ++visits[static_cast<size_t>(10 * k + i)];
+        for (int64_t i = first; i < last; ++i) ++visits[10 * k + i];
       });
   });
   return visits == std::vector<int>(100, 1);

@@ -24,7 +24,7 @@ TEST(ParallelTasks, AreEachDoneOnce) {
   for (const int threads : {1, 2}) {
     const ThreadCount count(threads);
     std::vector<std::atomic<int>> done(50);
-    parallel_tasks(50, [&](int k) { ++done[static_cast<size_t>(k)]; });
+    parallel_tasks(50, [&](int k) { ++done[k]; });
     for (const auto& times : done) EXPECT_EQ(times, 1);
   }
 }

@@ -43,10 +43,10 @@ Triplets entries_of(const clatter::fe::FeModel& model, const DofPartition& dofs,
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(model.size());
   MUMPS_INT next = 0;
   for (const int32_t dof : dofs.interior) {
-    index[static_cast<size_t>(dof)] = ++next;
+    index[dof] = ++next;
     scale[dof] = 1.0 / std::sqrt(model.K.coeff(dof, dof));
   }
-  for (const int32_t dof : dofs.boundary) index[static_cast<size_t>(dof)] = ++next;
+  for (const int32_t dof : dofs.boundary) index[dof] = ++next;
   Triplets out;
   int64_t count = 0;
   const auto add = [&](const clatter::SparseMatrix& lower, double real, double imaginary) {
@@ -54,8 +54,8 @@ Triplets entries_of(const clatter::fe::FeModel& model, const DofPartition& dofs,
       for (clatter::SparseMatrix::InnerIterator it(lower, j); it; ++it) {
         if (count++ % ranks != rank) continue;
         const double value = it.value() * scale[it.row()] * scale[j];
-        out.rows.push_back(index[static_cast<size_t>(it.row())]);
-        out.columns.push_back(index[static_cast<size_t>(j)]);
+        out.rows.push_back(index[it.row()]);
+        out.columns.push_back(index[j]);
         out.values.push_back({real * value, imaginary * value});
       }
   };
@@ -79,8 +79,7 @@ Eigen::MatrixXcd schur_complement(Triplets& triplets, Index size, Index boundary
   control(18) = 3;    // entries are distributed
   control(19) = 1;    // Schur complement on rank 0, lower triangle by rows
   std::vector<MUMPS_INT> last(static_cast<size_t>(boundary));
-  for (Index k = 0; k < boundary; ++k)
-    last[static_cast<size_t>(k)] = static_cast<MUMPS_INT>(size - boundary + k + 1);
+  for (Index k = 0; k < boundary; ++k) last[k] = static_cast<MUMPS_INT>(size - boundary + k + 1);
   std::vector<ZMUMPS_COMPLEX> schur(rank == 0 ? static_cast<size_t>(boundary * boundary) : 0);
   mumps.n = static_cast<MUMPS_INT>(size);
   mumps.nnz_loc = static_cast<MUMPS_INT8>(triplets.values.size());
@@ -99,7 +98,7 @@ Eigen::MatrixXcd schur_complement(Triplets& triplets, Index size, Index boundary
   Eigen::MatrixXcd S(boundary, boundary);
   for (Index row = 0; rank == 0 && row < boundary; ++row)
     for (Index column = 0; column <= row; ++column) {
-      const ZMUMPS_COMPLEX& value = schur[static_cast<size_t>(row * boundary + column)];
+      const ZMUMPS_COMPLEX& value = schur[row * boundary + column];
       S(row, column) = S(column, row) = {value.r, value.i};
     }
   return S;

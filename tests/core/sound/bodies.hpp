@@ -31,9 +31,7 @@ inline Triangles sphere_triangles(int levels) {
     const auto middle = [&](int a, int b) {
       const auto [at, added] =
           middles.try_emplace(std::minmax(a, b), static_cast<int>(points.size()));
-      if (added)
-        points.push_back(points[static_cast<size_t>(a)].normalized() +
-                         points[static_cast<size_t>(b)].normalized());
+      if (added) points.push_back(points[a].normalized() + points[b].normalized());
       return at->second;
     };
     std::vector<std::array<int, 3>> finer;
@@ -47,8 +45,7 @@ inline Triangles sphere_triangles(int levels) {
   for (size_t n = 0; n < points.size(); ++n)
     out.nodes.row(static_cast<Eigen::Index>(n)) = points[n].normalized().transpose();
   for (size_t f = 0; f < faces.size(); ++f)
-    for (int a = 0; a < 3; ++a)
-      out.faces(static_cast<Eigen::Index>(f), a) = faces[f][static_cast<size_t>(a)];
+    for (int a = 0; a < 3; ++a) out.faces(static_cast<Eigen::Index>(f), a) = faces[f][a];
   return out;
 }
 
@@ -75,8 +72,7 @@ inline Surface box(const Eigen::Vector3d& size, double edge) {
   std::map<std::array<int, 3>, int> node_of;
   std::vector<std::array<int, 3>> faces;
   std::array<int, 3> n;
-  for (int d = 0; d < 3; ++d)
-    n[static_cast<size_t>(d)] = std::max(1, static_cast<int>(std::lround(size[d] / edge)));
+  for (int d = 0; d < 3; ++d) n[d] = std::max(1, static_cast<int>(std::lround(size[d] / edge)));
   const auto node = [&](std::array<int, 3> at) {
     return node_of.try_emplace(at, static_cast<int>(node_of.size())).first->second;
   };

@@ -36,9 +36,8 @@ Eigen::MatrixXd permuted(const SparseMatrix& lower, const SupernodalFactor& fact
   Eigen::MatrixXd B(A.rows(), A.rows());
   for (Eigen::Index i = 0; i < A.rows(); ++i)
     for (Eigen::Index j = 0; j < A.rows(); ++j) {
-      const auto row = order[static_cast<size_t>(i)], column = order[static_cast<size_t>(j)];
-      B(i, j) = factor.scale()[static_cast<size_t>(row)] * A(row, column) *
-                factor.scale()[static_cast<size_t>(column)];
+      const auto row = order[i], column = order[j];
+      B(i, j) = factor.scale()[row] * A(row, column) * factor.scale()[column];
     }
   return B;
 }
@@ -49,8 +48,8 @@ Eigen::MatrixXd dense_factor(const SupernodalFactor& factor) {
   const SupernodeTree& tree = *view.tree;
   Eigen::MatrixXd L = Eigen::MatrixXd::Zero(tree.size, tree.size);
   for (int32_t s = 0; s < tree.supernodes(); ++s) {
-    const double* panel = view.panels + tree.panel_start[static_cast<size_t>(s)];
-    const int32_t first = tree.first[static_cast<size_t>(s)];
+    const double* panel = view.panels + tree.panel_start[s];
+    const int32_t first = tree.first[s];
     for (int32_t c = 0; c < tree.columns(s); ++c)
       for (int32_t r = c; r < tree.height(s); ++r)
         L(tree.rows_of(s)[r], first + c) = panel[c * tree.height(s) + r];

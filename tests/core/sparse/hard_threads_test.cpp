@@ -67,12 +67,12 @@ struct Teams {
 
 Teams teams_of(const SupernodeTree& tree, const SparseMatrix& A) {
   Teams teams;
-  teams.blas.resize(static_cast<size_t>(tree.supernodes()));
+  teams.blas.resize(tree.supernodes());
   std::mutex mutex;
   std::set<std::thread::id> ours;
   const FrontKernel kernel = [&](int32_t s, const Front& front) {
     EXPECT_EQ(eliminate_definite(front), 0);
-    teams.blas[static_cast<size_t>(s)] = blas_threads();
+    teams.blas[s] = blas_threads();
     const std::lock_guard<std::mutex> lock(mutex);
     ours.insert(std::this_thread::get_id());
   };
@@ -98,10 +98,10 @@ TEST(HardC8, ThreadsOfBlasAndOursDoNotMultiplyAndTheSolutionStays) {
     const TreeSchedule plan = schedule(tree, threads);
     EXPECT_EQ(plan.subtrees.empty(), threads == 1);
     for (const int32_t root : plan.subtrees)  // side by side
-      for (int32_t s = plan.lowest[static_cast<size_t>(root)]; s <= root; ++s)
-        EXPECT_EQ(teams.blas[static_cast<size_t>(s)], alone_in_blas) << threads << ", front " << s;
+      for (int32_t s = plan.lowest[root]; s <= root; ++s)
+        EXPECT_EQ(teams.blas[s], alone_in_blas) << threads << ", front " << s;
     for (const int32_t s : plan.top)  // one after another
-      EXPECT_EQ(teams.blas[static_cast<size_t>(s)], all) << threads << ", front " << s;
+      EXPECT_EQ(teams.blas[s], all) << threads << ", front " << s;
     const SupernodalFactor factor(A);
     set_blas_threads(threads + 1);
     const MatrixXd x = factor.solve(b);

@@ -17,7 +17,7 @@ using test::spring_box;
 /// Entries of Eigen's L of A with the rows in `order`.
 int64_t eigen_entries(const SparseMatrix& lower, const std::vector<int32_t>& order) {
   Eigen::VectorXi place(lower.cols());
-  for (int k = 0; k < lower.cols(); ++k) place[order[static_cast<size_t>(k)]] = k;
+  for (int k = 0; k < lower.cols(); ++k) place[order[k]] = k;
   SparseMatrix permuted(lower.rows(), lower.cols());
   permuted.selfadjointView<Eigen::Lower>() =
       lower.selfadjointView<Eigen::Lower>().twistedBy(place.asPermutation());

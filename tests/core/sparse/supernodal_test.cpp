@@ -49,7 +49,7 @@ TEST(Ordering, TheThreeDisplacementsOfANodeAreOneVertex) {
   ASSERT_EQ(graph.size(), nodes);
   EXPECT_EQ(graph.weight, std::vector<int32_t>(nodes, 3));
   EXPECT_EQ(graph.starts, (std::vector<int64_t>{0, 1, 3, 5, 7, 8}));  // a chain
-  for (int i = 0; i < 3 * nodes; ++i) EXPECT_EQ(graph.vertex[static_cast<size_t>(i)], i / 3);
+  for (int i = 0; i < 3 * nodes; ++i) EXPECT_EQ(graph.vertex[i], i / 3);
 }
 
 TEST(Ordering, EveryMethodGivesAPermutation) {
@@ -68,7 +68,7 @@ TEST(SupernodeTree, HoldsTheFillThatEigenCounts) {
   const SparseMatrix A = held_box(6, 6, 6);
   const SupernodeTree tree = analyse_tree(A, {});
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse(A.cols());
-  for (int j = 0; j < A.cols(); ++j) inverse.indices()[tree.order[static_cast<size_t>(j)]] = j;
+  for (int j = 0; j < A.cols(); ++j) inverse.indices()[tree.order[j]] = j;
   SparseMatrix turned(A.rows(), A.cols());
   turned.selfadjointView<Eigen::Lower>() = A.selfadjointView<Eigen::Lower>().twistedBy(inverse);
   const Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> eigen(turned);
@@ -82,8 +82,7 @@ TEST(SupernodeTree, HoldsTheFillThatEigenCounts) {
   EXPECT_LT(static_cast<double>(trapezoids), 1.6 * static_cast<double>(L.nonZeros()));  // merging
   // Every entry of L is in the front of its column.
   for (int32_t s = 0; s < tree.supernodes(); ++s)
-    for (int j = tree.first[static_cast<size_t>(s)]; j < tree.first[static_cast<size_t>(s) + 1];
-         ++j)
+    for (int j = tree.first[s]; j < tree.first[static_cast<size_t>(s) + 1]; ++j)
       for (SparseMatrix::InnerIterator it(L, j); it; ++it)
         EXPECT_TRUE(std::binary_search(tree.rows_of(s), tree.rows_of(s) + tree.height(s),
                                        static_cast<int32_t>(it.row())));
@@ -94,10 +93,9 @@ TEST(TreeSchedule, SubtreesAndTopAreAllSupernodesOnce) {
   for (const int threads : {1, 2, 5}) {
     const TreeSchedule plan = schedule(tree, threads);
     std::vector<int> seen(static_cast<size_t>(tree.supernodes()), 0);
-    for (const int32_t s : plan.top) ++seen[static_cast<size_t>(s)];
+    for (const int32_t s : plan.top) ++seen[s];
     for (const int32_t root : plan.subtrees)
-      for (int32_t s = plan.lowest[static_cast<size_t>(root)]; s <= root; ++s)
-        ++seen[static_cast<size_t>(s)];
+      for (int32_t s = plan.lowest[root]; s <= root; ++s) ++seen[s];
     EXPECT_EQ(seen, std::vector<int>(seen.size(), 1)) << threads;
     EXPECT_EQ(plan.subtrees.empty(), threads == 1);
   }

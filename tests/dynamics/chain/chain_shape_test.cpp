@@ -87,8 +87,8 @@ TEST_F(ChainShape, IsThatOfTheLinksAndOfWhatTheyRunOver) {
              least = file.read_doubles("history/chain_tension_min");
   const auto step = std::find(steps.begin(), steps.end(), time[7]) - steps.begin();
   ASSERT_LT(step, std::ssize(steps));
-  EXPECT_NEAR(tension.row(7).maxCoeff(), most[static_cast<size_t>(step)], 1e-4);
-  EXPECT_NEAR(tension.row(7).minCoeff(), least[static_cast<size_t>(step)], 1e-4);
+  EXPECT_NEAR(tension.row(7).maxCoeff(), most[step], 1e-4);
+  EXPECT_NEAR(tension.row(7).minCoeff(), least[step], 1e-4);
 }
 
 TEST_F(ChainShape, HasOutlinesWithTheirPlaces) {
@@ -106,7 +106,7 @@ TEST_F(ChainShape, HasOutlinesWithTheirPlaces) {
     const Eigen::Vector3d place = file.read_rows(over + "crank/place").row(k);
     EXPECT_NEAR(place(0), 0.0, 1e-9);
     EXPECT_NEAR(place(1), 0.0, 1e-9);
-    const double turn = -20.94 * std::numbers::pi / 180.0 + speed * time[static_cast<size_t>(k)];
+    const double turn = -20.94 * std::numbers::pi / 180.0 + speed * time[k];
     EXPECT_NEAR(std::remainder(place(2) - turn, 2.0 * std::numbers::pi / 20.0), 0.0, 1e-6);
   }
   // Of 20 teeth: mean tip circle and root circle of the reference, 54.81963 and about 51.13963 less

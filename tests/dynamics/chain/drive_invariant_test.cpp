@@ -40,16 +40,16 @@ class GroundImpulse : public StageObserver {
  public:
   GroundImpulse(const System& system, const Tableau& method) : system_(system), method_(method) {}
   void stage(int index, const StageState&) override {
-    Vector2d& sum = forces_[static_cast<size_t>(index)];
+    Vector2d& sum = forces_[index];
     sum.setZero();
     for (int e = 0; e < system_.elements(); ++e) sum += sum_of(system_, e);
   }
   void accept(double dt) override {
     for (int i = 0; i <= method_.stages; ++i) {
-      impulse += dt * method_.b[i] * forces_[static_cast<size_t>(i)];
-      size += dt * std::abs(method_.b[i]) * forces_[static_cast<size_t>(i)].norm();
+      impulse += dt * method_.b[i] * forces_[i];
+      size += dt * std::abs(method_.b[i]) * forces_[i].norm();
     }
-    forces_[0] = forces_[static_cast<size_t>(method_.stages)];
+    forces_[0] = forces_[method_.stages];
   }
   Vector2d impulse = Vector2d::Zero();
   double size = 0.0;

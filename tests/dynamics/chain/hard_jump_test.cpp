@@ -97,7 +97,7 @@ TEST_F(HardTD2_ToothJump, IsReportedWithSprocketAndTimeAndTheRunGoesOn) {
   ASSERT_NE(jump, jumps.end());
   // On its way it may fall back into its gap and leave it again.
   test::expect_at_least("links of a jump", jumps.back(), 1.0);
-  const double all = times[static_cast<size_t>(jump - jumps.begin())],
+  const double all = times[jump - jumps.begin()],
                first = std::stod(said.substr(said.find(" at ") + 4));
   EXPECT_LT(first, all);
   EXPECT_GT(first, all - 2e-3);

@@ -42,8 +42,8 @@ VectorXd ring(int links, double pitch) {
   VectorXd y(3 * links);
   const std::vector<LinkPlace> places = links_between(pins);
   for (int j = 0; j < links; ++j) {
-    y.segment<2>(3 * j) = places[static_cast<size_t>(j)].centre;
-    y(3 * j + 2) = places[static_cast<size_t>(j)].angle;
+    y.segment<2>(3 * j) = places[j].centre;
+    y(3 * j + 2) = places[j].angle;
   }
   return y;
 }

@@ -48,7 +48,7 @@ void OpenChain::pull(int body, const Vector2d& force) {
   Load load;
   load.term = "pull";
   load.body = body;
-  const ModalBody& pulled = system.bodies()[static_cast<size_t>(body)];
+  const ModalBody& pulled = system.bodies()[body];
   load.direction = pulled.shapes.topRows<2>().transpose() * force;
   load.value = [](double) { return 1.0; };
   system.add_load(load);
@@ -68,8 +68,7 @@ VectorXd OpenChain::rest(double residual) {
 }
 
 double OpenChain::tension(int joint) const {
-  return dynamic_cast<const LinkJoints&>(system.element(joints))
-      .tensions()[static_cast<size_t>(joint)];
+  return dynamic_cast<const LinkJoints&>(system.element(joints)).tensions()[joint];
 }
 
 }  // namespace clatter::dynamics::testing

@@ -47,7 +47,7 @@ double RunningDrive::history(const std::string& name) const {
 int RunningDrive::coordinate(const std::string& body, int k) const {
   System& system = model->system;
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b)
-    if (system.bodies()[static_cast<size_t>(b)].name == body) return system.coordinate(b, k);
+    if (system.bodies()[b].name == body) return system.coordinate(b, k);
   ADD_FAILURE() << "no body " << body;
   return 0;
 }

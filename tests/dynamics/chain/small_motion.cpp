@@ -102,7 +102,7 @@ DampedMotion damped_motion(System& system, const VectorXd& y, std::complex<doubl
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return distance(a) < distance(b); });
   DampedMotion found{VectorXcd(count), MatrixXcd(y.size(), count)};
   for (int k = 0; k < count; ++k) {
-    const Eigen::Index at = order[static_cast<size_t>(k)];
+    const Eigen::Index at = order[k];
     found.s(k) = solved.values(at);
     found.shapes.col(k) = (q.P * (x * solved.vectors.col(at)).topRows(n)).normalized();
   }

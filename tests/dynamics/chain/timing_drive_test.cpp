@@ -55,7 +55,7 @@ struct Rest {
   int coordinate(const std::string& body, int k) const {
     System& system = model->system;
     for (int b = 0;; ++b)
-      if (system.bodies()[static_cast<size_t>(b)].name == body) return system.coordinate(b, k);
+      if (system.bodies()[b].name == body) return system.coordinate(b, k);
   }
   double history(const std::string& name) const {
     StageState state;
@@ -282,7 +282,7 @@ TEST_F(TimingDriveScene, ACycleLaterALinkIsWhereThatFortyPitchesAheadWas) {
     const auto link = [&](int number) {
       const auto& bodies = model->system.bodies();
       int b = 0;
-      while (bodies[static_cast<size_t>(b)].name != fmt::format("chain link {}", number)) ++b;
+      while (bodies[b].name != fmt::format("chain link {}", number)) ++b;
       return b;
     };
     const auto before = [&](int body) {

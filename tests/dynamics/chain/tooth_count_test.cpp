@@ -17,7 +17,7 @@ std::vector<int> gaps(int turned, int ahead, Turn turn) {
   for (int k = -2; k <= 2; k += 2) {
     // Link j is at the place j + turned + ahead along the way of the chain in space.
     const int link = ((k - turned - ahead) % kLinks + kLinks) % kLinks;
-    found[static_cast<size_t>(link)] = (((s * (k - turned)) % kTeeth) + kTeeth) % kTeeth;
+    found[link] = (((s * (k - turned)) % kTeeth) + kTeeth) % kTeeth;
   }
   return found;
 }

@@ -61,7 +61,7 @@ Eigen::MatrixXd motions_of_all(const Model& model, double time, const Eigen::Vec
   for (const auto& component : model.components) frames.merge(component->frames(time));
   Eigen::MatrixXd modal(system.modes(), 6), V(system.interface_size(), 6);
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
-    const ModalBody& body = system.bodies()[static_cast<size_t>(b)];
+    const ModalBody& body = system.bodies()[b];
     Eigen::Matrix<double, 6, 6> motion = Eigen::Matrix<double, 6, 6>::Identity();
     const auto frame = frames.find(b);
     for (int k = 0; k < 3 && frame != frames.end(); ++k)

@@ -52,7 +52,7 @@ ShortRun short_run(const Scene& given, const ShortSteps& steps) {
   for (const History::Entry& entry : history.entries())
     made.history[entry.name] = {entry.unit, entry.value};
   for (int b = 0; b < static_cast<int>(model->system.bodies().size()); ++b) {
-    const ModalBody& body = model->system.bodies()[static_cast<size_t>(b)];
+    const ModalBody& body = model->system.bodies()[b];
     made.velocity[body.name] =
         method->state().v.segment(model->system.mode_offset(b), body.modes());
   }

@@ -88,8 +88,7 @@ TEST(OscillatingSqueeze, CavityOpensGrowsAndClosesAsMassConservationWants) {
       EXPECT_NEAR(cycle.close, 0.74119, 0.01 * 0.74119);
       EXPECT_NEAR(cycle.rupture, 0.2500198, 2e-6);       // the step around the rupture
       EXPECT_NEAR(cycle.widest, 0.976992, 1.0 / cells);  // the rim lies in a cell
-      for (int k = 0; k < 3; ++k)
-        EXPECT_NEAR(cycle.widths[static_cast<size_t>(k)], widths[k], 1.0 / cells);
+      for (int k = 0; k < 3; ++k) EXPECT_NEAR(cycle.widths[k], widths[k], 1.0 / cells);
     }
   }
 }

@@ -146,8 +146,7 @@ TEST(LinerLayer, AMirroredPistonHasAMirroredLayer) {
   };
   const auto one = run(5e-6), other = run(-5e-6);
   for (const int pad : {0, 1}) {
-    const Eigen::MatrixXd a = one[static_cast<size_t>(pad)].liner_oil,
-                          b = other[static_cast<size_t>(1 - pad)].liner_oil;
+    const Eigen::MatrixXd a = one[pad].liner_oil, b = other[1 - pad].liner_oil;
     EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-9 * a.maxCoeff());
   }
   EXPECT_GT((one[0].liner_oil - one[1].liner_oil).cwiseAbs().maxCoeff(), 1e-7);

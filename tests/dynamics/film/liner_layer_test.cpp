@@ -160,8 +160,7 @@ double hump_error(int cells, const dynamics::Tableau& A) {
   layer.save(state);
   const Eigen::VectorXd z = layer.heights();
   for (Eigen::Index k = 0; k < z.size(); ++k)
-    if (state[static_cast<size_t>(k)] > 0.0)
-      state[static_cast<size_t>(k)] = hump(z[k]) * (z[1] - z[0]);
+    if (state[k] > 0.0) state[k] = hump(z[k]) * (z[1] - z[0]);
   layer.restore(state.begin());
   const Eigen::ArrayXXd first = layer.thickness();
   const double gap = 40e-6;

@@ -204,8 +204,7 @@ TEST(WholeSkirt, ElasticBodiesInRigidMotionFeelTheSameForceAcrossSpacesBetweenPa
       make_patches(8, 3, options.skirt_bottom, options.skirt_top, options.bore_radius);
   const std::vector<int> kept{0, 1, 4, 5};
   Eigen::VectorXd edges(8);
-  for (int i = 0; i < 4; ++i)
-    edges.segment<2>(2 * i) = skirt.angle_edges.segment<2>(2 * kept[static_cast<size_t>(i)]);
+  for (int i = 0; i < 4; ++i) edges.segment<2>(2 * i) = skirt.angle_edges.segment<2>(2 * kept[i]);
   skirt.angle = Eigen::VectorXd(skirt.angle(kept));
   skirt.angle_edges = edges;
   PistonLinerBodies bodies;

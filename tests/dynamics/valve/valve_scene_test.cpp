@@ -139,8 +139,7 @@ lobe = [{ body = "cam.lobe", at_mm = [0, 0, 0], deg = 0 }]
   const auto row = [](const H5File& file, const std::string& name) {
     const auto names = file.read_strings("effects/name");
     const auto at = std::find(names.begin(), names.end(), name) - names.begin();
-    return file.read_strings("effects/state")[static_cast<size_t>(at)] + ", " +
-           file.read_strings("effects/why")[static_cast<size_t>(at)];
+    return file.read_strings("effects/state")[at] + ", " + file.read_strings("effects/why")[at];
   };
   std::vector<double> speeds[2];
   for (const bool full : {false, true}) {
@@ -223,7 +222,7 @@ lobe = [{ body = "cam", at_mm = [0, 0, 0], deg = 0, seat = { body = "head" }, on
   const auto momentum = [&](const Eigen::VectorXd& v) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
-      const ModalBody& body = system.bodies()[static_cast<size_t>(b)];
+      const ModalBody& body = system.bodies()[b];
       sum += body.rigid.leftCols<3>().transpose() * v.segment(system.mode_offset(b), body.modes());
     }
     return sum;

@@ -45,7 +45,7 @@ TEST(AbaqusBolt, TheCutCopiesItsNodesForTheSideOfItsSurface) {
   EXPECT_EQ(bolt.reference, 16);
   EXPECT_EQ(bolt.direction, Eigen::Vector3d(0, 0, -1));  // outward
   for (int i = 0; i < 4; ++i) {
-    EXPECT_EQ(deck.mesh.node_ids[static_cast<size_t>(12 + i)], 1000 + i);
+    EXPECT_EQ(deck.mesh.node_ids[12 + i], 1000 + i);
     EXPECT_EQ(deck.mesh.nodes.row(12 + i), deck.mesh.nodes.row(4 + i));
   }
   EXPECT_EQ(nodes_of(deck.mesh.surface("CUT")), (std::vector<int32_t>{12, 13, 14, 15}));

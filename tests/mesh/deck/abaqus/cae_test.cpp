@@ -183,7 +183,7 @@ TEST(AbaqusSets, InEquationsTheyStandForOneEquationEach) {
                          "BOT, 1, 1.\nREVERSED, 1, -1.\n9, 1, 2.\n");
   ASSERT_EQ(deck.equations.size(), 4u);
   for (int32_t i = 0; i < 4; ++i) {
-    const Equation& one = deck.equations[static_cast<size_t>(i)];
+    const Equation& one = deck.equations[i];
     ASSERT_EQ(one.terms.size(), 3u);
     EXPECT_EQ(one.terms[0].node_index, node(deck, 1 + i));
     EXPECT_EQ(one.terms[1].node_index, node(deck, 8 - i));

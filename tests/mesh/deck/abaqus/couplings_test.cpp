@@ -168,7 +168,7 @@ TEST(AbaqusEquation, TransformedNodesKeepTheMeaningOfTheirEquations) {
   std::array<bool, 3> dependent{};
   for (const Equation& equation : deck.equations) {
     EXPECT_EQ(equation.terms[0].node_index, node(deck, 5));
-    dependent[static_cast<size_t>(equation.terms[0].direction)] = true;
+    dependent[equation.terms[0].direction] = true;
     double sum = 0.0;
     for (const auto& term : equation.terms) {
       const Eigen::Vector3d& u = term.node_index == node(deck, 5)   ? u5

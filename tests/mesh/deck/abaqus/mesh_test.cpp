@@ -86,7 +86,7 @@ TEST(AbaqusMesh, MidSideNodesLieInTheMiddleOfTheirEdges) {
     ASSERT_EQ(block.type, solid.type) << solid.name;
     EXPECT_EQ(block.ids, std::vector<int32_t>{77});
     for (int i = 0; i < cell.corners; ++i) {
-      EXPECT_EQ(deck.mesh.node_ids[static_cast<size_t>(block.nodes(0, i))], 100 + i) << solid.name;
+      EXPECT_EQ(deck.mesh.node_ids[block.nodes(0, i)], 100 + i) << solid.name;
     }
     if (cell.order == 1) continue;
     for (size_t e = 0; e < cell.edges.size(); ++e) {

@@ -62,7 +62,7 @@ inline NodeIndex point(const Deck& deck, int32_t id) {
 /// Deck numbers of rows of the mesh.
 inline std::vector<int32_t> ids_of(const Deck& deck, const std::vector<int32_t>& rows) {
   std::vector<int32_t> ids;
-  for (const int32_t row : rows) ids.push_back(deck.mesh.node_ids[static_cast<size_t>(row)]);
+  for (const int32_t row : rows) ids.push_back(deck.mesh.node_ids[row]);
   return ids;
 }
 

@@ -116,10 +116,9 @@ void take_numbers(Mesh& found, const Mesh& expected) {
   for (Eigen::Index n = 0; n < found.nodes.rows(); ++n)
     for (Eigen::Index k = 0; k < expected.nodes.rows(); ++k)
       if ((found.nodes.row(n) - expected.nodes.row(k)).norm() < 1e-12)
-        row[static_cast<size_t>(n)] = static_cast<int32_t>(k);
+        row[n] = static_cast<int32_t>(k);
   const auto renumber = [&](IndexMatrix& table) {
-    for (Eigen::Index i = 0; i < table.size(); ++i)
-      table.data()[i] = row[static_cast<size_t>(table.data()[i])];
+    for (Eigen::Index i = 0; i < table.size(); ++i) table.data()[i] = row[table.data()[i]];
   };
   for (size_t b = 0; b < found.cells.size(); ++b) {
     renumber(found.cells[b].nodes);
@@ -128,7 +127,7 @@ void take_numbers(Mesh& found, const Mesh& expected) {
   for (auto& [name, surface] : found.surfaces)
     for (FaceBlock& block : surface.faces) renumber(block.nodes);
   for (auto& [name, set] : found.node_sets) {
-    for (int32_t& n : set) n = row[static_cast<size_t>(n)];
+    for (int32_t& n : set) n = row[n];
     std::sort(set.begin(), set.end());
   }
   found.nodes = expected.nodes;

@@ -85,7 +85,7 @@ TEST(NastranCell, MidSideNodesOfAHexLieBetweenTheirCorners) {
   const auto edges = mesh::traits(CellType::kHex20).edges;
   for (int e = 0; e < 12; ++e) {
     const auto at = [&](int i) { return deck.mesh.nodes.row(block.nodes(0, i)); };
-    const auto& [a, b] = edges[static_cast<size_t>(e)];
+    const auto& [a, b] = edges[e];
     EXPECT_EQ((at(8 + e) - (at(a) + at(b)) / 2).norm(), 0.0) << e;
   }
 }
@@ -183,7 +183,7 @@ TEST(NastranRegions, Mat9IsAnisotropicInThePropertysSystem) {
   const Material& material = deck.materials.at("mat_1");
   EXPECT_EQ(material.kind, Material::Kind::kAnisotropic);
   ASSERT_EQ(material.constants.size(), 21u);
-  for (int i = 0; i < 21; ++i) EXPECT_EQ(material.constants[static_cast<size_t>(i)], i + 1.0);
+  for (int i = 0; i < 21; ++i) EXPECT_EQ(material.constants[i], i + 1.0);
   EXPECT_THAT(material.expansion, ElementsAre(1e-5, 2e-5, 3e-5));
   EXPECT_EQ(material.density, 7.8);
   EXPECT_EQ(material.reference_temperature, 20.0);

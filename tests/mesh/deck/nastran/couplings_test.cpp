@@ -41,7 +41,7 @@ double residual(const Deck& deck, const Equation& equation, const Vector3d& u,
     const auto nodes = static_cast<mesh::deck::NodeIndex>(deck.mesh.nodes.rows());
     const Vector3d at = term.node_index < nodes
                             ? Vector3d(deck.mesh.nodes.row(term.node_index).transpose())
-                            : deck.points[static_cast<size_t>(term.node_index - nodes)].at;
+                            : deck.points[term.node_index - nodes].at;
     const Vector3d move = u + theta.cross(at);
     sum +=
         term.coefficient * (term.direction < 3 ? move[term.direction] : theta[term.direction - 3]);

@@ -84,7 +84,7 @@ std::vector<int32_t> face_of(const Deck& deck, const std::string& name) {
   EXPECT_EQ(surface.face_count(), 1);
   std::vector<int32_t> ids;
   for (Eigen::Index i = 0; i < surface.faces[0].nodes.cols(); ++i) {
-    ids.push_back(deck.mesh.node_ids[static_cast<size_t>(surface.faces[0].nodes(0, i))]);
+    ids.push_back(deck.mesh.node_ids[surface.faces[0].nodes(0, i)]);
   }
   std::sort(ids.begin(), ids.end());
   return ids;

@@ -85,8 +85,7 @@ struct Bulk {
 int64_t count(const Deck& deck, CellType type, const std::string& region) {
   int64_t n = 0;
   for (const auto& cells : deck.mesh.cells)
-    if (cells.type == type && deck.mesh.regions[static_cast<size_t>(cells.region)] == region)
-      n += cells.nodes.rows();
+    if (cells.type == type && deck.mesh.regions[cells.region] == region) n += cells.nodes.rows();
   return n;
 }
 
@@ -94,7 +93,7 @@ double mass(const Deck& deck, const std::string& region) {
   const auto& names = deck.mesh.regions;
   const auto at = std::find(names.begin(), names.end(), region) - names.begin();
   return mesh::cell_volume(deck.mesh, static_cast<int32_t>(at)) *
-         deck.materials.at(deck.regions[static_cast<size_t>(at)].material).density;
+         deck.materials.at(deck.regions[at].material).density;
 }
 
 Vector3d node(const Deck& deck, int32_t id) {

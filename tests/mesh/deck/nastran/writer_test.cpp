@@ -109,7 +109,7 @@ TEST_P(NastranRoundTrip, GivesTheSameMesh) {
   const Mesh back = written_and_read(mesh);
   expect_same(mesh, back);
   for (Eigen::Index n = 0; n < back.nodes.rows(); ++n) {
-    EXPECT_EQ(back.node_ids[static_cast<size_t>(n)], n + 1);
+    EXPECT_EQ(back.node_ids[n], n + 1);
   }
 }
 
