@@ -135,7 +135,7 @@ class Tables {
       tables_[t] = tabulate(type, rule_of(type));
     }
   }
-  const CellPoints& of(CellType type) const { return tables_[type]; }
+  const CellPoints& of(CellType type) const { return tables_[static_cast<size_t>(type)]; }
 
  private:
   std::array<CellPoints, mesh::kCellTypes> tables_;
@@ -179,7 +179,7 @@ const Eigen::MatrixXd& stress_smoothing(CellType type) {
     for (size_t t = 0; t < out.size(); ++t) out[t] = fit_corners(static_cast<CellType>(t));
     return out;
   }();
-  return all[type];
+  return all[static_cast<size_t>(type)];
 }
 
 const CellPoints& mass_points(CellType type, bool straight) {

@@ -77,14 +77,14 @@ const Eigen::MatrixXd& reference_mass(CellType type) {
     std::array<Eigen::MatrixXd, 2> out;
     for (const CellType tet : {CellType::kTet4, CellType::kTet10}) {
       const Eigen::Index n = mesh::traits(tet).nodes;
-      Eigen::MatrixXd& sum = out[tet];
+      Eigen::MatrixXd& sum = out[static_cast<size_t>(tet)];
       sum = Eigen::MatrixXd::Zero(n, n);
       for (const CellPoint& point : mass_points(tet, true))
         sum += point.weight * point.shape.value * point.shape.value.transpose();
     }
     return out;
   }();
-  return all[type];
+  return all[static_cast<size_t>(type)];
 }
 
 void compute_mass(CellType type, const CellNodes& x, const Material& material, bool straight,

@@ -188,8 +188,8 @@ Type type_named(const Table& table, std::string_view name, const char* what,
 
 }  // namespace
 
-const CellTraits& traits(CellType type) { return kCells[type]; }
-const FaceTraits& traits(FaceType type) { return kFaces[type]; }
+const CellTraits& traits(CellType type) { return kCells[static_cast<size_t>(type)]; }
+const FaceTraits& traits(FaceType type) { return kFaces[static_cast<size_t>(type)]; }
 
 CellType cell_type_named(std::string_view name, const std::string& where) {
   return type_named<CellType>(kCells, name, "cell", where);

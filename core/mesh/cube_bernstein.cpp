@@ -84,7 +84,7 @@ const Sampling& sampling_of(CellType type) {
     for (int t = 2; t < kCellTypes; ++t) out[t] = make_sampling(static_cast<CellType>(t));
     return out;
   }();
-  return all[type];
+  return all[static_cast<size_t>(type)];
 }
 
 // Applies `matrix` along one axis.

@@ -119,7 +119,7 @@ int64_t Surface::face_count() const {
 
 void SurfaceBuilder::add(FaceType type, std::span<const int32_t> face) {
   const auto nodes = face.first(static_cast<size_t>(traits(type).nodes));
-  std::vector<int32_t>& all = nodes_[type];
+  std::vector<int32_t>& all = nodes_[static_cast<size_t>(type)];
   all.insert(all.end(), nodes.begin(), nodes.end());
 }
 

@@ -203,7 +203,7 @@ double volume_of(CellType type, const CellNodes& x) {
     }
     return out;
   }();
-  const std::vector<CellShape>& at = gradients[type];
+  const std::vector<CellShape>& at = gradients[static_cast<size_t>(type)];
   double volume = 0.0;
   for (size_t q = 0; q < at.size(); ++q) {
     const Eigen::Matrix3d J = x.transpose() * at[q].gradient;

@@ -55,7 +55,7 @@ class RawArrays {
 // VTK's triangle, quadratic triangle, quadrilateral, quadratic quadrilateral.
 uint8_t vtk_type(FaceType type) {
   constexpr std::array<uint8_t, kFaceTypes> kTypes = {5, 22, 9, 23};
-  return kTypes[type];
+  return kTypes[static_cast<size_t>(type)];
 }
 
 int64_t count_drawn(const Mesh& mesh) {

@@ -138,7 +138,7 @@ void ChainComponent::add_body_effects(const ModelBuilder&, EffectTable& effects)
       find_effect(kChainEffects, "chain"), "chain " + spec_.name, true,
       fmt::format("[[chain]]: {} links in the plane, 3 coordinates each", spec_.make.links()),
       spec_.name + " joints");
-  row.unknowns = size().modes;
+  row.unknowns = traits().modes;
 }
 
 void ChainComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {

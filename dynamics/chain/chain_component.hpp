@@ -9,11 +9,12 @@
 #include "dynamics/chain/layout.hpp"
 #include "dynamics/chain/profile_contact.hpp"
 #include "dynamics/component/component.hpp"
+#include "dynamics/component/component_interfaces.hpp"
 
 namespace clatter::dynamics {
 
 /// A chain: its links as bodies, its joints, its contacts with each sprocket and guide.
-class ChainComponent : public Component {
+class ChainComponent : public Component, public MovingRow, public FieldSource {
  public:
   /// InputError where the chain does not fit around what it runs over.
   explicit ChainComponent(ChainSpec spec);
@@ -21,12 +22,16 @@ class ChainComponent : public Component {
     return std::make_unique<ChainComponent>(*this);
   }
   std::string name() const override { return spec_.name; }
-  ComponentSize size() const override { return {.modes = 3 * spec_.make.links(), .film_cells = 0}; }
+  ComponentTraits traits() const override {
+    ComponentTraits traits;
+    traits.modes = 3 * spec_.make.links();
+    traits.needs_equilibrium = true;
+    return traits;
+  }
   std::vector<std::filesystem::path> inputs() const override {
     if (spec_.pitch_table.empty()) return {};
     return {spec_.pitch_table};
   }
-  bool needs_equilibrium() const override { return true; }
   /// Links on the layout, moving with the first sprocket.
   void add_bodies(ModelBuilder& model) override;
   void add_elements(ModelBuilder& model) override;

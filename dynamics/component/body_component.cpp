@@ -73,9 +73,9 @@ void add_body_effect(const LoadedBody& body, EffectTable& effects) {
                 spec.name + " frame");
 }
 
-ComponentSize BodyComponent::size() const {
+ComponentTraits BodyComponent::traits() const {
   constexpr int kRigid = 6;
-  return {.modes = spec_.motion == BodyMotion::kSpace ? kSpatial - kRigid : 0, .film_cells = 0};
+  return {.modes = spec_.motion == BodyMotion::kSpace ? kSpatial - kRigid : 0};
 }
 
 void BodyComponent::add_elements(ModelBuilder& model) {

@@ -19,7 +19,7 @@ class BodyComponent : public Component {
   }
   std::string name() const override { return spec_.name; }
   std::vector<BodySpec> reduced_bodies() const override { return {spec_}; }
-  ComponentSize size() const override;
+  ComponentTraits traits() const override;
   /// Not in space: attitudes are states whose clock goes on.
   bool repeats(double) const override { return spec_.motion != BodyMotion::kSpace; }
   void add_elements(ModelBuilder& model) override;

@@ -112,11 +112,11 @@ const Keys<RigidBodySpec>& rigid_body_keys() {
   return keys;
 }
 
-ComponentSize RigidBodyComponent::size() const {
+ComponentTraits RigidBodyComponent::traits() const {
   const int modes = spec_.motion == Freedom::kSlide   ? 1
                     : spec_.motion == Freedom::kPlane ? 3
                                                       : kSpatial;
-  return {.modes = modes, .film_cells = 0};
+  return {.modes = modes};
 }
 
 void RigidBodyComponent::add_bodies(ModelBuilder& model) {
@@ -243,7 +243,7 @@ void RigidBodyComponent::add_body_effects(const ModelBuilder&, EffectTable& effe
           ? fmt::format("large motion in the plane {}, 3 coordinates", kPlanes[spec_.normal])
           : "large motion in space, 10 coordinates",
       is_planar || slides ? "" : spec_.name + " rotation");
-  row.unknowns = size().modes;
+  row.unknowns = traits().modes;
 }
 
 void RigidBodyComponent::record(const System&, const StageState& state, History& history) const {

@@ -44,7 +44,7 @@ class RigidBodyComponent : public Component {
     return std::make_unique<RigidBodyComponent>(*this);
   }
   std::string name() const override { return spec_.name; }
-  ComponentSize size() const override;
+  ComponentTraits traits() const override;
   /// Unless in space: attitudes are states whose clock goes on.
   bool repeats(double) const override { return spec_.motion != RigidBodySpec::Freedom::kSpace; }
   /// InputError for masses and moments that no body has.

@@ -34,19 +34,16 @@ std::vector<std::filesystem::path> CrankComponent::inputs() const {
   return files;
 }
 
-ComponentSize CrankComponent::size() const {
-  ComponentSize size{.modes = (spec_.body.in_bearings ? 4 : 0) + (spec_.body.is_free ? 1 : 0),
-                     .film_cells = 0};
-  for (const CrankBearingSpec& bearing : spec_.bearings)
-    if (const auto* film = std::get_if<JournalFilmOptions>(&bearing.law))
-      size.film_cells += static_cast<int64_t>(film->cells_around) * film->cells_along;
-  return size;
-}
-
-bool CrankComponent::has_film() const {
-  for (const CrankBearingSpec& bearing : spec_.bearings)
-    if (bearing.has_film()) return true;
-  return false;
+ComponentTraits CrankComponent::traits() const {
+  ComponentTraits traits;
+  traits.modes = (spec_.body.in_bearings ? 4 : 0) + (spec_.body.is_free ? 1 : 0);
+  for (const CrankBearingSpec& bearing : spec_.bearings) {
+    const auto* film = std::get_if<JournalFilmOptions>(&bearing.law);
+    if (film == nullptr) continue;
+    traits.has_film = true;
+    traits.film_cells += static_cast<int64_t>(film->cells_around) * film->cells_along;
+  }
+  return traits;
 }
 
 void CrankComponent::add_bodies(ModelBuilder& model) {
@@ -117,7 +114,7 @@ void CrankComponent::add_body_effects(const ModelBuilder&, EffectTable& effects)
       fmt::format("[crank]: rigid, {}{}{}", spec_.body.in_bearings ? "displacements and tilts" : "",
                   spec_.body.in_bearings && spec_.body.is_free ? ", " : "",
                   spec_.body.is_free ? "rotation" : ""));
-  row.unknowns = size().modes;
+  row.unknowns = traits().modes;
 }
 
 void CrankComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
@@ -128,7 +125,7 @@ void CrankComponent::add_effects(const ModelBuilder&, EffectTable& effects) cons
            body.in_bearings ? "[[crank.bearing]], instead of block.bearings"
                             : "no [[crank.bearing]]: the crank follows block.bearings",
            body.in_bearings ? std::string("bearing ") + CrankBody::kName : "")
-      .unknowns = size().film_cells;
+      .unknowns = traits().film_cells;
   effects.add(find_effect(kCrankEffects, "gyroscopic moments of the crank"), gyroscope,
               gyroscope ? "crank.polar_kg_m2" : "no [[crank.bearing]] or no crank.polar_kg_m2",
               gyroscope ? "gyroscope crankshaft" : "");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/component/component.hpp"
+#include "dynamics/component/component_interfaces.hpp"
 #include "dynamics/crank/crank_bearings.hpp"
 #include "dynamics/crank/crank_spec.hpp"
 
@@ -13,15 +14,14 @@ namespace clatter::dynamics {
 /// The body "crankshaft" on whose pins the cylinders act. Histories: those of bearings and load;
 /// crankshaft_y, _z [m], crankshaft_tilt_y, _tilt_z [rad] of the centre of mass;
 /// `<bearing>_offset_y`, `_offset_z` [m] of the journal in its bearing.
-class CrankComponent : public Component {
+class CrankComponent : public Component, public MovingFrames {
  public:
   explicit CrankComponent(CrankSpec spec) : spec_(std::move(spec)) {}
   std::unique_ptr<Component> clone() const override {
     return std::make_unique<CrankComponent>(*this);
   }
   std::vector<std::filesystem::path> inputs() const override;
-  ComponentSize size() const override;
-  bool has_film() const override;
+  ComponentTraits traits() const override;
 
   void add_bodies(ModelBuilder& model) override;
   void add_elements(ModelBuilder& model) override;

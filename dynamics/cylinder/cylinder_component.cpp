@@ -35,11 +35,12 @@ std::vector<std::filesystem::path> CylinderComponent::inputs() const {
   return files;
 }
 
-ComponentSize CylinderComponent::size() const {
-  ComponentSize size;
+ComponentTraits CylinderComponent::traits() const {
+  ComponentTraits traits;
+  traits.has_film = spec_.contact && spec_.contact->effects.film;
   if (spec_.rod.model == RodModel::kRigid || spec_.rod.model == RodModel::kTwoMass)
-    size.modes = kRodPlanar;
-  if (!spec_.contact) return size;
+    traits.modes = kRodPlanar;
+  if (!spec_.contact) return traits;
   film::PistonLinerOptions contact = *spec_.contact;
   double along = contact.cells_along;
   if (contact.liner_layer) {  // one field, where a cell of the pad has four
@@ -48,8 +49,8 @@ ComponentSize CylinderComponent::size() const {
                                                contact.cells_along);
   }
   const double pads = contact.span == film::SkirtSpan::kWhole ? 1.0 : 2.0;
-  size.film_cells = std::llround(pads * contact.cells_around * along);
-  return size;
+  traits.film_cells = std::llround(pads * contact.cells_around * along);
+  return traits;
 }
 
 void CylinderComponent::add_bodies(ModelBuilder& model) {
@@ -109,7 +110,7 @@ void CylinderComponent::add_body_effects(const ModelBuilder& model, EffectTable&
 void CylinderComponent::add_effects(const ModelBuilder& model, EffectTable& effects) const {
   const bool on_block = spec_.bore && model.has_body("block");
   const std::string ends = contact_ != nullptr ? liner_ends_text(crank_, contact_->options()) : "";
-  add_cylinder_effects(spec_, size(), on_block, ends, effects);
+  add_cylinder_effects(spec_, traits(), on_block, ends, effects);
   if (contact_ != nullptr) add_clearance_effect(spec_.name, crank_, contact_->options(), effects);
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "dynamics/component/component.hpp"
+#include "dynamics/component/component_interfaces.hpp"
 #include "dynamics/cylinder/cylinder_elements.hpp"
 #include "dynamics/cylinder/cylinder_spec.hpp"
 #include "dynamics/given/spline.hpp"
@@ -16,7 +17,7 @@ namespace clatter::dynamics {
 /// "crank_pin", "pin_guide", "piston_liner" and "rings"; its histories those of the elements and
 /// piston_lateral [m], piston_tilt [rad] (against the liner) and gas_pressure [Pa]. All names of a
 /// named cylinder "c1" begin with "c1_".
-class CylinderComponent : public Component {
+class CylinderComponent : public Component, public PistonInLiner, public MovingFrames {
  public:
   explicit CylinderComponent(CylinderSpec spec)
       : spec_(std::move(spec)), crank_(spec_.engine.crank()) {}
@@ -26,8 +27,7 @@ class CylinderComponent : public Component {
   std::string name() const override { return spec_.name; }
   std::vector<BodySpec> reduced_bodies() const override;
   std::vector<std::filesystem::path> inputs() const override;
-  ComponentSize size() const override;
-  bool has_film() const override { return spec_.contact && spec_.contact->effects.film; }
+  ComponentTraits traits() const override;
 
   void add_bodies(ModelBuilder& model) override;
   /// InputError for sets and grids that a body lacks and for inconsistent geometry.
@@ -37,7 +37,6 @@ class CylinderComponent : public Component {
   void add_effects(const ModelBuilder& model, EffectTable& effects) const override;
 
   void record(const System& system, const StageState& state, History& history) const override;
-  bool has_secondary_motion() const override { return true; }
   Eigen::Vector2d secondary_motion(double time, const Eigen::VectorXd& y) const override;
   std::map<int, Eigen::Vector3d> frames(double time) const override;
   const film::PistonLiner* contact() const override { return contact_; }

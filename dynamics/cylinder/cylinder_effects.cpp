@@ -36,8 +36,8 @@ int64_t gap_cells(const film::PistonLinerOptions& contact) {
   return pads * contact.cells_around * contact.cells_along;
 }
 
-void add_contact(const CylinderSpec& cylinder, const ComponentSize& size, const std::string& ends,
-                 CylinderRows& table) {
+void add_contact(const CylinderSpec& cylinder, const ComponentTraits& traits,
+                 const std::string& ends, CylinderRows& table) {
   const bool contact = cylinder.contact.has_value();
   const auto effects = contact ? cylinder.contact->effects : film::ContactEffects{};
   const std::string absent = "no [contact]";
@@ -66,7 +66,7 @@ void add_contact(const CylinderSpec& cylinder, const ComponentSize& size, const 
   add_oil(find_effect(kCylinderEffects, "oil layer on the liner"),
           film && cylinder.contact->liner_layer.has_value(), "contact.liner_oil")
       ->unknowns =
-      film && cylinder.contact->liner_layer ? size.film_cells - gap_cells(*cylinder.contact) : 0;
+      film && cylinder.contact->liner_layer ? traits.film_cells - gap_cells(*cylinder.contact) : 0;
   add_oil(find_effect(kCylinderEffects, "viscosity over temperature"), oil.by_temperature(),
           oil.by_temperature() ? "contact.oil.law, instead of contact.viscosity_pa_s"
                                : "contact.oil.law");
@@ -135,15 +135,15 @@ void add_rings(const CylinderSpec& cylinder, CylinderRows& table) {
 
 }  // namespace
 
-void add_cylinder_effects(const CylinderSpec& cylinder, const ComponentSize& size, bool on_block,
-                          const std::string& ends, EffectTable& effects) {
+void add_cylinder_effects(const CylinderSpec& cylinder, const ComponentTraits& traits,
+                          bool on_block, const std::string& ends, EffectTable& effects) {
   CylinderRows table(cylinder, effects);
   table
       .add(find_effect(kCylinderEffects, "inertia of the piston"), true,
            "eq. (10): frame moves with z_B(t), does not turn")
       .unknowns = cylinder.piston.elastic ? 0 : 6;
   const std::vector<RodEffect> rod = rod_effects(cylinder);
-  table.add(rod[0].entry, rod[0].on, rod[0].why, rod[0].element).unknowns = size.modes;
+  table.add(rod[0].entry, rod[0].on, rod[0].why, rod[0].element).unknowns = traits.modes;
   table.add(find_effect(kCylinderEffects, "inertia of the block"), false,
             "p* = 0: its frame is at rest");
   const bool balanced = cylinder.engine.balanced && on_block;
@@ -162,7 +162,7 @@ void add_cylinder_effects(const CylinderSpec& cylinder, const ComponentSize& siz
               "no [crank]: its centre follows block.bearings");
   table.add(find_effect(kCylinderEffects, "pin guide"), true,
             "[pin_guide]: along the pin and about y, z", "pin_guide");
-  add_contact(cylinder, size, ends, table);
+  add_contact(cylinder, traits, ends, table);
   add_rings(cylinder, table);
 }
 

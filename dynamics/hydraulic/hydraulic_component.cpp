@@ -53,8 +53,8 @@ std::vector<std::filesystem::path> HydraulicComponent::inputs() const {
   return {spec_.supply.table};
 }
 
-ComponentSize HydraulicComponent::size() const {
-  return {.modes = !is_hydraulic() ? 0 : has_moving_ball() ? 2 : 1, .film_cells = 0};
+ComponentTraits HydraulicComponent::traits() const {
+  return {.modes = !is_hydraulic() ? 0 : has_moving_ball() ? 2 : 1};
 }
 
 TimeFunction supply_pressure(const SupplySpec& given, const ModelBuilder& model) {
@@ -111,7 +111,7 @@ void HydraulicComponent::add_body_effects(const ModelBuilder&, EffectTable& effe
                         : "model = \"constant_force\": that of the start";
   Effect& row = effects.add(find_effect(kHydraulicEffects, "hydraulic element"), element_name(),
                             true, why, element_name());
-  row.unknowns = size().modes;
+  row.unknowns = traits().modes;
 }
 
 void HydraulicComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {

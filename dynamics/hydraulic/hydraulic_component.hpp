@@ -55,7 +55,7 @@ class HydraulicComponent : public Component {
   }
   std::string name() const override { return spec_.name; }
   std::vector<std::filesystem::path> inputs() const override;
-  ComponentSize size() const override;
+  ComponentTraits traits() const override;
   void add_bodies(ModelBuilder& model) override;
   /// InputError for points that no body has and tables that do not cover the run.
   void add_elements(ModelBuilder& model) override;

@@ -5,17 +5,17 @@
 
 namespace clatter::dynamics {
 
-ComponentFields::ComponentFields(const Model& model, const Component& component, H5File& file,
+ComponentFields::ComponentFields(const Model& model, const FieldSource& source, H5File& file,
                                  double begin, double end)
     : model_(&model),
-      component_(&component),
-      clock_(file, component.field_plan().group),
+      source_(&source),
+      clock_(file, source.field_plan().group),
       fields_(file),
-      every_(component.field_plan().interval(end - begin)),
+      every_(source.field_plan().interval(end - begin)),
       next_(begin) {
   clock_.add_column(run::kTime, "s");
   if (model.clock) clock_.add_column(run::kCrankAngle, "deg");
-  component.write_outlines(file);
+  source.write_outlines(file);
 }
 
 void ComponentFields::record(const StageState& now) {
@@ -24,7 +24,7 @@ void ComponentFields::record(const StageState& now) {
     clock_.add({now.time, model_->clock->angle_deg(now.time)});
   else
     clock_.add({now.time});
-  component_->record_fields(now, fields_);
+  source_->record_fields(now, fields_);
   while (next_ <= now.time) next_ += every_;
 }
 

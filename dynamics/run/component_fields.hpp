@@ -3,6 +3,7 @@
 // Fields that a component records at intervals.
 #include <cstdint>
 
+#include "dynamics/component/component_interfaces.hpp"
 #include "dynamics/component/field_stream.hpp"
 #include "dynamics/run/column_stream.hpp"
 #include "dynamics/run/model.hpp"
@@ -15,7 +16,7 @@ class ComponentFields {
  public:
   /// Of a component of `model` whose plan has a group; model and file outlive this. @param begin,
   /// end span of the run [s].
-  ComponentFields(const Model& model, const Component& component, H5File& file, double begin,
+  ComponentFields(const Model& model, const FieldSource& source, H5File& file, double begin,
                   double end);
   /// After each accepted step.
   void record(const StageState& now);
@@ -26,7 +27,7 @@ class ComponentFields {
 
  private:
   const Model* model_;
-  const Component* component_;
+  const FieldSource* source_;
   ColumnStream clock_;
   FieldStream fields_;
   double every_, next_;

@@ -165,9 +165,8 @@ void CycleRun::report(RunResult& result) const {
   result.warnings = accuracy_warnings(method_->estimate().bodies(method_->weights()),
                                       scene_.steps.accuracy, method_->estimate().steps());
   for (const std::string& warning : pressure_.warnings()) result.warnings.push_back(warning);
-  for (const auto& component : model_->components) {
-    const film::PistonLiner* contact = component->contact();
-    const auto oil = contact != nullptr ? contact->oil_balance() : std::nullopt;
+  for (const auto& [name, contact] : contacts_of(*model_)) {
+    const auto oil = contact->oil_balance();
     if (oil && (!result.oil || oil->residue() > result.oil->residue())) result.oil = oil;
   }
   for (const auto& component : model_->components)

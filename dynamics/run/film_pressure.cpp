@@ -47,29 +47,26 @@ bool is_rigid(const film::PistonLiner& contact) { return contact.size() == 6; }
 void FilmPressureWatch::look(const Model& model, const History& scalars, double time) {
   if (!watched_) {
     watched_.emplace();
-    for (const auto& component : model.components) {
-      if (component->contact() == nullptr) continue;
-      const std::string name = component->name();
+    for (const auto& [name, contact] : contacts_of(model)) {
       const size_t pressure = entry_of(scalars, name, "film_pressure_max"),
                    force = entry_of(scalars, name, "side_force");
       if (std::max(pressure, force) < scalars.entries().size())
-        watched_->push_back({component.get(), pressure, force});
+        watched_->push_back({name, contact, pressure, force});
     }
   }
   for (Watched& one : *watched_) {
     const double pressure = scalars.entries()[one.pressure].value;
     if (!(pressure > one.largest)) continue;
     one.largest = pressure;
-    const std::string name = one.component->name();
     one.warning = fmt::format(
         "{}film pressure {:.3g} GPa at crank angle {:.1f} deg on {} is above {:.3g} GPa, which "
         "neither oil nor skirt bear as modelled, under a side force of {:.3g} N: reduce the loads "
         "on "
         "the piston, the speed or the clearance{}",
-        name.empty() ? "" : name + ": ", 1e-9 * pressure, model.clock->angle_deg(time),
-        position_of_largest(*one.component->contact()), 1e-9 * kLargestFilmPressure,
+        one.name.empty() ? "" : one.name + ": ", 1e-9 * pressure, model.clock->angle_deg(time),
+        position_of_largest(*one.contact), 1e-9 * kLargestFilmPressure,
         std::abs(scalars.entries()[one.force].value),
-        is_rigid(*one.component->contact()) ? ", or use elastic bodies" : "");
+        is_rigid(*one.contact) ? ", or use elastic bodies" : "");
   }
 }
 

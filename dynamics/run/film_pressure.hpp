@@ -28,7 +28,8 @@ class FilmPressureWatch {
 
  private:
   struct Watched {
-    const Component* component;
+    std::string name;  // of the cylinder
+    const film::PistonLiner* contact;
     size_t pressure, force;  // film_pressure_max, side_force among the scalars
     double largest = kLargestFilmPressure;
     std::string warning = {};

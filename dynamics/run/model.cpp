@@ -29,4 +29,14 @@ void Model::record(const StageState& state, History& history) const {
   for (const auto& component : components) component->record(system, state, history);
 }
 
+std::vector<NamedContact> contacts_of(const Model& model) {
+  std::vector<NamedContact> found;
+  for (const auto& component : model.components) {
+    const auto* piston = dynamic_cast<const PistonInLiner*>(component.get());
+    if (piston != nullptr && piston->contact() != nullptr)
+      found.push_back({component->name(), piston->contact()});
+  }
+  return found;
+}
+
 }  // namespace clatter::dynamics

@@ -3,9 +3,11 @@
 // The model of a scene: a system and the components that made it.
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "dynamics/component/component.hpp"
+#include "dynamics/component/component_interfaces.hpp"
 #include "dynamics/given/crank_clock.hpp"
 #include "dynamics/integrate/system.hpp"
 #include "dynamics/run/bodies.hpp"
@@ -30,7 +32,7 @@ struct Model {
 std::unique_ptr<Model> build_model(const Scene& scene, const LoadedBodies& loaded,
                                    bool at_rest = false);
 
-/// The components of class C.
+/// The components of class C, or with the interface C (component_interfaces.hpp).
 template <class C>
 std::vector<const C*> components_of(const Model& model) {
   std::vector<const C*> found;
@@ -38,5 +40,12 @@ std::vector<const C*> components_of(const Model& model) {
     if (const auto* one = dynamic_cast<const C*>(component.get())) found.push_back(one);
   return found;
 }
+
+/// The contacts of pistons and liners, with the names of their components.
+struct NamedContact {
+  std::string name;
+  const film::PistonLiner* contact;
+};
+std::vector<NamedContact> contacts_of(const Model& model);
 
 }  // namespace clatter::dynamics

@@ -23,7 +23,8 @@ std::optional<Eigen::MatrixXd> motions_of_all(const Model& model, double time) {
   for (int e = 0; e < system.elements(); ++e)
     if (dynamic_cast<const MasslessRod*>(&system.element(e)) != nullptr) return std::nullopt;
   std::map<int, Eigen::Vector3d> frames;
-  for (const auto& component : model.components) frames.merge(component->frames(time));
+  for (const MovingFrames* moving : components_of<MovingFrames>(model))
+    frames.merge(moving->frames(time));
   Eigen::MatrixXd motions(system.modes(), 6);
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
     const ModalBody& body = system.bodies()[b];

@@ -23,7 +23,8 @@ CycleComparison::CycleComparison(const Model& model, H5File before, int64_t samp
       largest_(model.components.size()) {
   for (int b = 0; b < static_cast<int>(model.system.bodies().size()); ++b) {
     int body = b;
-    for (const auto& component : model.components) body = component->body_before(body, cycle);
+    for (const MovingRow* row : components_of<MovingRow>(model))
+      body = row->body_before(body, cycle);
     before_body_.push_back(body);
   }
   const std::vector<int64_t> expected{samples, model.system.modes()};
@@ -45,16 +46,15 @@ void CycleComparison::add(const SampleBlock& now) {
     change_[b] += (v - v_before.middleCols(was, n)).squaredNorm();
   }
   compared_ += now.count;
-  if (std::none_of(model_.components.begin(), model_.components.end(),
-                   [](const auto& component) { return component->has_secondary_motion(); }))
-    return;
+  if (components_of<PistonInLiner>(model_).empty()) return;
   const RowMatrix eta_before = before_.read_rows(kCycleEta, now.first, now.count);
   for (Eigen::Index i = 0; i < now.count; ++i) {
     const Eigen::VectorXd change = (now.eta.row(i) - eta_before.row(i)).transpose();
     const Eigen::VectorXd y = model_.system.interface(change);
     for (size_t c = 0; c < largest_.size(); ++c) {
-      if (!model_.components[c]->has_secondary_motion()) continue;
-      const Eigen::Vector2d motion = model_.components[c]->secondary_motion(now.time(i), y);
+      const auto* piston = dynamic_cast<const PistonInLiner*>(model_.components[c].get());
+      if (piston == nullptr) continue;
+      const Eigen::Vector2d motion = piston->secondary_motion(now.time(i), y);
       largest_[c] = largest_[c].value_or(Eigen::Vector2d::Zero()).cwiseMax(motion.cwiseAbs());
     }
   }

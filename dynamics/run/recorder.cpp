@@ -22,14 +22,11 @@ Recorder::Recorder(const Model& model, const RecordedSpan& span, H5File& file,
       film_clock_(file, "film"),
       film_every_(span.film_every),
       next_film_(span.begin) {
-  for (const auto& component : model.components) {
-    if (!component->field_plan().group.empty())
-      fields_.emplace_back(model, *component, file, span.begin, span.end);
-    if (component->contact() == nullptr) continue;
-    const std::string name = component->name();
-    films_.emplace_back(file, *component->contact(),
-                        name.empty() ? "film" : run::path("film", name));
-  }
+  for (const FieldSource* source : components_of<FieldSource>(model))
+    if (!source->field_plan().group.empty())
+      fields_.emplace_back(model, *source, file, span.begin, span.end);
+  for (const auto& [name, contact] : contacts_of(model))
+    films_.emplace_back(file, *contact, name.empty() ? "film" : run::path("film", name));
   for (ColumnStream* columns : {&history_, &energy_, &film_clock_})
     add_clock_columns(*columns, model);
 }

@@ -27,8 +27,8 @@ RunSize predict_size(const Scene& scene, const LoadedBodies& bodies) {
   size.samples = sample_count(span, scene.time.output_step);
   int64_t modes = 0, film_cells = 0;
   for (const auto& component : scene.components) {
-    modes += component->size().modes;
-    film_cells += component->size().film_cells;
+    modes += component->traits().modes;
+    film_cells += component->traits().film_cells;
   }
   for (const auto& body : bodies) {
     size.coordinates += body.model.size();

@@ -21,8 +21,8 @@ int body_of(const System& system, int mode) {
 }
 
 std::string place_of(const Model& model, int body) {
-  for (const auto& component : model.components)
-    if (std::string place = component->place_of(body); !place.empty()) return place;
+  for (const MovingRow* row : components_of<MovingRow>(model))
+    if (std::string place = row->place_of(body); !place.empty()) return place;
   return "";
 }
 
@@ -52,7 +52,7 @@ std::string unbalanced_text(const Model& model, const Equilibrium& found) {
 
 ModalStart start_state(const Scene& scene, const LoadedBodies& bodies, const Model& model) {
   ModalStart start{model.system.eta_start(), model.system.v_start()};
-  const auto needs = [](const auto& component) { return component->needs_equilibrium(); };
+  const auto needs = [](const auto& component) { return component->traits().needs_equilibrium; };
   if (std::none_of(model.components.begin(), model.components.end(), needs)) return start;
   const auto resting = build_model(scene, bodies, true);
   const Equilibrium found = find_equilibrium(resting->system, scene.time.begin, start.eta);

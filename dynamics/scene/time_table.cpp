@@ -152,8 +152,9 @@ TimeTable read_time(const Config& root, Scene& scene) {
 void read_steps(const Config& root, TimeTable table, Scene& scene) {
   const Config time = root.table("time");
   const double span = recorded_span(scene), whole = scene.time.end - scene.time.begin;
-  const bool has_film = std::any_of(scene.components.begin(), scene.components.end(),
-                                    [](const auto& component) { return component->has_film(); });
+  const bool has_film =
+      std::any_of(scene.components.begin(), scene.components.end(),
+                  [](const auto& component) { return component->traits().has_film; });
   StepOptions& steps = scene.steps;
   steps.method = table.method.value_or(has_film ? &sdirk2() : &tr_bdf2());
   steps.exact_modes = table.exact_modes.value_or(steps.method->stages == 2);

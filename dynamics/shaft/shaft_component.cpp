@@ -12,12 +12,12 @@ bool ShaftComponent::has_wheel(size_t disc) const {
   return spec_.model != ShaftModel::kRigid && spec_.discs[disc].phaser;
 }
 
-ComponentSize ShaftComponent::size() const {
-  if (spec_.model == ShaftModel::kRigid) return {.modes = 1, .film_cells = 0};
+ComponentTraits ShaftComponent::traits() const {
+  if (spec_.model == ShaftModel::kRigid) return {.modes = 1};
   const int each = spec_.model == ShaftModel::kFull ? 6 : 1;
   int modes = each * static_cast<int>(shaft_stations(spec_).size());
   for (size_t d = 0; d < spec_.discs.size(); ++d) modes += has_wheel(d) ? 1 : 0;
-  return {.modes = modes, .film_cells = 0};
+  return {.modes = modes};
 }
 
 int ShaftComponent::add_body(ModelBuilder& model, const std::string& part,
@@ -106,7 +106,7 @@ void ShaftComponent::add_body_effects(const ModelBuilder&, EffectTable& effects)
           ? fmt::format("model = torsion, {} slices with their angle", stations)
           : "model = rigid, one angle";
   effects.add(find_effect(kShaftEffects, "shaft"), "shaft " + spec_.name, true, what).unknowns =
-      size().modes;
+      traits().modes;
 }
 
 void ShaftComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {

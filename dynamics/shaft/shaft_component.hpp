@@ -23,7 +23,7 @@ class ShaftComponent : public Component {
     return std::make_unique<ShaftComponent>(*this);
   }
   std::string name() const override { return spec_.name; }
-  ComponentSize size() const override;
+  ComponentTraits traits() const override;
   void add_bodies(ModelBuilder& model) override;
   /// InputError for housings that the scene lacks or that are not on the axis.
   void add_elements(ModelBuilder& model) override;

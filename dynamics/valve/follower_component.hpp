@@ -32,7 +32,7 @@ class FollowerComponent : public Component {
   }
   std::string name() const override { return table_.name; }
   std::vector<std::filesystem::path> inputs() const override;
-  ComponentSize size() const override { return {.modes = 3, .film_cells = 0}; }
+  ComponentTraits traits() const override { return {.modes = 3}; }
   void add_bodies(ModelBuilder& model) override;
   void add_elements(ModelBuilder& model) override;
   void add_body_effects(const ModelBuilder& model, EffectTable& effects) const override;

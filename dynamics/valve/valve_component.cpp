@@ -40,12 +40,12 @@ std::vector<std::filesystem::path> ValveComponent::inputs() const {
   return files;
 }
 
-ComponentSize ValveComponent::size() const {
+ComponentTraits ValveComponent::traits() const {
   if (spec_.model == ValveModel::kQuasiStatic) return {};
   const bool ball = spec_.adjuster.sizes.chamber.valve.ball == CheckValveSpec::Ball::kMoving;
   const int adjuster = spec_.adjuster.is_hydraulic ? (ball ? 3 : 2) : 0;
   const int each = 4 + adjuster + spec_.coil.spring.masses;
-  return {.modes = each * static_cast<int>(spec_.lobes.size()), .film_cells = 0};
+  return {.modes = each * static_cast<int>(spec_.lobes.size())};
 }
 
 FollowerPlace ValveComponent::place(const ValveLobe& lobe) const {
@@ -239,7 +239,7 @@ void ValveComponent::add_body_effects(const ModelBuilder&, EffectTable& effects)
                   full ? fmt::format("model = \"full\": {} valves as bodies", spec_.lobes.size())
                        : fmt::format("model = \"quasi_static\": torque on {} cams by the lift law",
                                      spec_.lobes.size()));
-  row.unknowns = size().modes;
+  row.unknowns = traits().modes;
 }
 
 void ValveComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {

@@ -69,7 +69,7 @@ class ValveComponent : public Component {
   }
   std::string name() const override { return spec_.name; }
   std::vector<std::filesystem::path> inputs() const override;
-  ComponentSize size() const override;
+  ComponentTraits traits() const override;
   /// At places and speeds that belong to the angle of the cams, with adjusters under the pressure
   /// that holds their valves.
   void add_bodies(ModelBuilder& model) override;

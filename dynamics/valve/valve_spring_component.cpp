@@ -116,7 +116,7 @@ Effect& add_spring_effect(const std::string& element, const CoilSpringSpec& spri
 }
 
 void ValveSpringComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
-  add_spring_effect(element_name(), spec_.coil.spring, effects).unknowns = size().modes;
+  add_spring_effect(element_name(), spec_.coil.spring, effects).unknowns = traits().modes;
 }
 
 ComponentList read_valve_springs(const Config& root) {

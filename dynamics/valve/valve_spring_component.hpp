@@ -36,9 +36,7 @@ class ValveSpringComponent : public Component {
     return std::make_unique<ValveSpringComponent>(*this);
   }
   std::string name() const override { return spec_.name; }
-  ComponentSize size() const override {
-    return {.modes = spec_.coil.spring.masses, .film_cells = 0};
-  }
+  ComponentTraits traits() const override { return {.modes = spec_.coil.spring.masses}; }
   /// InputError for a spring whose ends are at the same point.
   void add_bodies(ModelBuilder& model) override;
   void add_elements(ModelBuilder& model) override;

@@ -193,7 +193,7 @@ double worst_distance(const SurfaceShape& shape, const Points& points) {
 std::string name_of(ShapeKind kind) {
   constexpr std::array<const char*, 8> kNames = {"plane", "cylinder", "cone",   "sphere",
                                                  "torus", "revolved", "spline", "other"};
-  return kNames[kind];
+  return kNames[static_cast<size_t>(kind)];
 }
 
 bool is_round(ShapeKind kind) {

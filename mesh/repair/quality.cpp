@@ -106,7 +106,7 @@ const std::vector<EdgeEnd>& ends_of(CellType type) {
     for (int t = 0; t < kCellTypes; ++t) ends[t] = edge_ends(static_cast<CellType>(t));
     return ends;
   }();
-  return all[type];
+  return all[static_cast<size_t>(type)];
 }
 
 std::pair<double, double> extreme_angles(CellType type, const CellNodes& x) {

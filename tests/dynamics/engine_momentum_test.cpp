@@ -33,7 +33,8 @@ using Wrench6 = Eigen::Matrix<double, 6, 1>;
 MatrixXd motions_of_whole(const Model& model, double time) {
   const System& system = model.system;
   std::map<int, Vector3d> frames;
-  for (const auto& component : model.components) frames.merge(component->frames(time));
+  for (const MovingFrames* moving : components_of<MovingFrames>(model))
+    frames.merge(moving->frames(time));
   MatrixXd motions(system.modes(), 6);
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
     Eigen::Matrix<double, 6, 6> motion = Eigen::Matrix<double, 6, 6>::Identity();

@@ -46,7 +46,7 @@ const std::vector<int32_t>& Sets::elements(size_t use, const std::string& name, 
 }
 
 const std::vector<int32_t>& Sets::resolve(Kind kind, const Key& key, Origin origin) {
-  const auto [at, is_new] = done_[kind].try_emplace(key);
+  const auto [at, is_new] = done_[static_cast<size_t>(kind)].try_emplace(key);
   Entry& entry = at->second;
   if (entry.done) return entry.members;
   const char* what = kind == Kind::kNodes ? "node set" : "element set";

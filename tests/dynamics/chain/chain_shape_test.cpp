@@ -141,8 +141,8 @@ TEST_F(ChainShape, IsRecordedAsOftenAsAsked) {
   // Without a key 300 of a span.
   const auto model = build_model(scene(running("", 1e-3)), {});
   double interval = 0.0;
-  for (const auto& component : model->components)
-    if (component->name() == "chain") interval = component->field_plan().interval(0.03);
+  for (const FieldSource* source : components_of<FieldSource>(*model))
+    interval = source->field_plan().interval(0.03);
   EXPECT_DOUBLE_EQ(interval, 1e-4);
 }
 

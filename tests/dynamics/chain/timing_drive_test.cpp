@@ -286,7 +286,8 @@ TEST_F(TimingDriveScene, ACycleLaterALinkIsWhereThatFortyPitchesAheadWas) {
       return b;
     };
     const auto before = [&](int body) {
-      for (const auto& component : model->components) body = component->body_before(body, cycle);
+      for (const MovingRow* row : components_of<MovingRow>(*model))
+        body = row->body_before(body, cycle);
       return body;
     };
     EXPECT_EQ(before(link(5)), link(45));

@@ -58,7 +58,8 @@ SyntheticEngine engine_of(const CrankVariant& variant) {
 Eigen::MatrixXd motions_of_all(const Model& model, double time, const Eigen::VectorXd& at) {
   const System& system = model.system;
   std::map<int, Eigen::Vector3d> frames;
-  for (const auto& component : model.components) frames.merge(component->frames(time));
+  for (const MovingFrames* moving : components_of<MovingFrames>(model))
+    frames.merge(moving->frames(time));
   Eigen::MatrixXd modal(system.modes(), 6), V(system.interface_size(), 6);
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
     const ModalBody& body = system.bodies()[b];
