@@ -2,6 +2,7 @@
 // The elastic rod and the rod without mass: forces, tangents, powers.
 #include "dynamics/body/elastic_rod.hpp"
 #include "dynamics/element/pair_element.hpp"
+#include "dynamics/element/rod_frame.hpp"
 
 #include <gtest/gtest.h>
 
