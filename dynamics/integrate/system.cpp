@@ -64,7 +64,9 @@ VectorXd or_zero(const VectorXd& values, int size) {
 }  // namespace
 
 int System::add_body(ModalBody body) {
-  offsets_.push_back(modes_);
+  BodyPart& part = parts_.emplace_back();
+  part.offset = modes_;
+  part.P.resize(0, body.modes());
   modes_ += body.modes();
   omega_squared_ = joined(omega_squared_, body.omega_squared);
   damping_ = joined(damping_, body.damping);
@@ -72,11 +74,6 @@ int System::add_body(ModalBody body) {
   second_order_ = joined(second_order_, second_order_of(body));
   eta_start_ = joined(eta_start_, or_zero(body.eta_start, body.modes()));
   v_start_ = joined(v_start_, or_zero(body.v_start, body.modes()));
-  rows_.emplace_back();
-  places_.emplace_back();
-  P_.emplace_back(0, body.modes());
-  part_.emplace_back();
-  single_.push_back(1);
   bodies_.push_back(std::move(body));
   return static_cast<int>(bodies_.size()) - 1;
 }
@@ -101,10 +98,10 @@ int System::combined_coordinate(int body, const WeightedDofs& sum) {
 }
 
 int System::find_or_add(int body, const Place& place) {
-  const auto b = static_cast<size_t>(body);
-  const auto found = std::find(places_[b].begin(), places_[b].end(), place);
-  if (found != places_[b].end()) return rows_[b][found - places_[b].begin()];
-  const ModalBody& owner = bodies_[b];
+  BodyPart& part = parts_[body];
+  const auto found = std::find(part.places.begin(), part.places.end(), place);
+  if (found != part.places.end()) return part.rows[found - part.places.begin()];
+  const ModalBody& owner = bodies_[body];
   Eigen::RowVectorXd row;
   if (place.dof == kFrame) {
     row = owner.force_of(unit_wrench(place.axis, place.point)).transpose();
@@ -119,30 +116,31 @@ int System::find_or_add(int body, const Place& place) {
   }
   const int index = interface_size();
   owner_.push_back(body);
-  rows_[b].push_back(index);
-  places_[b].push_back(place);
-  P_[b].conservativeResize(P_[b].rows() + 1, Eigen::NoChange);
-  P_[b].bottomRows(1) = row;
+  part.rows.push_back(index);
+  part.places.push_back(place);
+  part.P.conservativeResize(part.P.rows() + 1, Eigen::NoChange);
+  part.P.bottomRows(1) = row;
   find_singles(body);
   return index;
 }
 
 /// Looks at a body that has got a row.
 void System::find_singles(int body) {
-  const auto b = static_cast<size_t>(body);
-  if (single_[b] == 0) return;
-  const Eigen::Index row = P_[b].rows() - 1;
+  BodyPart& part = parts_[body];
+  if (!part.is_single) return;
+  const MatrixXd& P = part.P;
+  const Eigen::Index row = P.rows() - 1;
   Eigen::Index mode = 0;
-  const double scale = P_[b].row(row).cwiseAbs().maxCoeff(&mode);
+  const double scale = P.row(row).cwiseAbs().maxCoeff(&mode);
   const bool single =
-      (P_[b].row(row).array() != 0.0).count() <= 1 && (P_[b].col(mode).array() != 0.0).count() <= 1;
+      (P.row(row).array() != 0.0).count() <= 1 && (P.col(mode).array() != 0.0).count() <= 1;
   if (single) {
-    singles_.y.push_back(rows_[b].back());
-    singles_.mode.push_back(offsets_[b] + static_cast<int>(mode));
-    singles_.scale.push_back(std::copysign(scale, P_[b](row, mode)));
+    singles_.y.push_back(part.rows.back());
+    singles_.mode.push_back(part.offset + static_cast<int>(mode));
+    singles_.scale.push_back(std::copysign(scale, P(row, mode)));
     return;
   }
-  single_[b] = 0;
+  part.is_single = false;
   SingleRows others;
   for (size_t i = 0; i < singles_.y.size(); ++i) {
     if (owner(singles_.y[i]) == body) continue;
@@ -154,21 +152,15 @@ void System::find_singles(int body) {
 }
 
 const System::Place& System::place_of(int y_index) const {
-  const auto b = static_cast<size_t>(owner_[y_index]);
-  const auto at = std::find(rows_[b].begin(), rows_[b].end(), y_index) - rows_[b].begin();
-  return places_[b][at];
+  const BodyPart& part = parts_[owner_[y_index]];
+  return part.places[std::find(part.rows.begin(), part.rows.end(), y_index) - part.rows.begin()];
 }
 
 void System::add_element(std::unique_ptr<ForceElement> element) {
-  costs_.push_back({element->name()});
-  responses_.emplace_back();
-  tangent_rows_.emplace_back();
-  groups_.push_back(groups_of(*element));
-  y_of_.emplace_back();
-  v_of_.emplace_back();
-  moved_.emplace_back();
-  change_.emplace_back();
-  elements_.push_back(std::move(element));
+  ElementPart& part = elements_.emplace_back();
+  part.cost.name = element->name();
+  part.groups = groups_of(*element);
+  part.element = std::move(element);
 }
 
 void System::add_load(Load load) { loads_.push_back(std::move(load)); }
@@ -213,7 +205,7 @@ void System::restart_frames(StageState& before, StageState& now) const {
     if (!bodies_[b].frame) continue;
     any = true;
     SpatialFrame& frame = *bodies_[b].frame;
-    const int at = offsets_[b] + kTurn;
+    const int at = parts_[b].offset + kTurn;
     const auto spin = [&](const StageState& x) {
       return frame.spin(x.time, x.eta.segment<4>(at), x.v.segment<4>(at));
     };
@@ -242,10 +234,11 @@ void System::interface(const VectorXd& modal, VectorXd& y) const {
   for (size_t i = 0; i < singles_.y.size(); ++i)
     y(singles_.y[i]) = singles_.scale[i] * modal(singles_.mode[i]);
   for (size_t b = 0; b < bodies_.size(); ++b) {
-    if (single_[b] != 0) continue;
-    part_[b].noalias() = P_[b] * modal.segment(offsets_[b], bodies_[b].modes());
-    for (size_t i = 0; i < rows_[b].size(); ++i)
-      y(rows_[b][i]) = part_[b](static_cast<Eigen::Index>(i));
+    const BodyPart& part = parts_[b];
+    if (part.is_single) continue;
+    part.held.noalias() = part.P * modal.segment(part.offset, bodies_[b].modes());
+    for (size_t i = 0; i < part.rows.size(); ++i)
+      y(part.rows[i]) = part.held(static_cast<Eigen::Index>(i));
   }
 }
 
@@ -257,10 +250,10 @@ void System::interface(const std::array<const VectorXd*, kCount>& modal,
     for (size_t i = 0; i < singles_.y.size(); ++i)
       (*y[k])(singles_.y[i]) = singles_.scale[i] * (*modal[k])(singles_.mode[i]);
   }
-  for (size_t b = 0; b < bodies_.size(); ++b) {
-    if (single_[b] != 0) continue;
-    const MatrixXd& P = P_[b];
-    const Eigen::Index n = P.rows(), first = offsets_[b];
+  for (const BodyPart& part : parts_) {
+    if (part.is_single) continue;
+    const MatrixXd& P = part.P;
+    const Eigen::Index n = P.rows(), first = part.offset;
     row_sums_.assign(kCount * static_cast<size_t>(n), 0.0);
     double* sums = row_sums_.data();
     for (Eigen::Index j = 0; j < P.cols(); ++j) {
@@ -273,7 +266,7 @@ void System::interface(const std::array<const VectorXd*, kCount>& modal,
     }
     for (size_t k = 0; k < kCount; ++k)
       for (Eigen::Index i = 0; i < n; ++i)
-        (*y[k])(rows_[b][i]) = sums[static_cast<Eigen::Index>(k) * n + i];
+        (*y[k])(part.rows[i]) = sums[static_cast<Eigen::Index>(k) * n + i];
   }
 }
 
@@ -292,9 +285,10 @@ void System::add_interface_force(const VectorXd& f_y, VectorXd& g) const {
   for (size_t i = 0; i < singles_.y.size(); ++i)
     g(singles_.mode[i]) += singles_.scale[i] * f_y(singles_.y[i]);
   for (size_t b = 0; b < bodies_.size(); ++b) {
-    if (rows_[b].empty() || single_[b] != 0) continue;
-    gather(f_y, rows_[b], part_[b]);
-    g.segment(offsets_[b], bodies_[b].modes()).noalias() += P_[b].transpose() * part_[b];
+    const BodyPart& part = parts_[b];
+    if (part.rows.empty() || part.is_single) continue;
+    gather(f_y, part.rows, part.held);
+    g.segment(part.offset, bodies_[b].modes()).noalias() += part.P.transpose() * part.held;
   }
 }
 
@@ -309,7 +303,7 @@ void System::jump(const StageState& state, const VectorXd& impulse, VectorXd& et
   for (size_t b = 0; b < bodies_.size(); ++b) {
     const auto& frame = bodies_[b].frame;
     if (!frame || frame->modes() == 0) continue;
-    const Eigen::Index at = offsets_[b], n = frame->modes();
+    const Eigen::Index at = parts_[b].offset, n = frame->modes();
     v.segment(at + kSpatial, n) =
         frame->rate_jump(state.time, state.eta.segment(at, kSpatial + n),
                          eta.segment<3>(at + kMomentum), v.segment(at + kSpatial, n));

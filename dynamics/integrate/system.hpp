@@ -72,22 +72,22 @@ class System {
 
   const std::vector<ModalBody>& bodies() const { return bodies_; }
   const std::vector<Load>& loads() const { return loads_; }
-  ForceElement& element(int index) { return *elements_[index]; }
-  const ForceElement& element(int index) const { return *elements_[index]; }
+  ForceElement& element(int index) { return *elements_[index].element; }
+  const ForceElement& element(int index) const { return *elements_[index].element; }
   int elements() const { return static_cast<int>(elements_.size()); }
-  const std::vector<ElementCost>& costs() const { return costs_; }
+  std::vector<ElementCost> costs() const;
   int modes() const { return modes_; }                                    // N
   int interface_size() const { return static_cast<int>(owner_.size()); }  // n_y
   /// First modal coordinate of a body in eta.
-  int mode_offset(int body) const { return offsets_[body]; }
+  int mode_offset(int body) const { return parts_[body].offset; }
   /// The body of a y.
   int owner(int y_index) const { return owner_[y_index]; }
   /// Interface rows of a body (indices in y), and P of that body (rows x its modes).
-  const std::vector<int>& rows(int body) const { return rows_[body]; }
-  const Eigen::MatrixXd& P(int body) const { return P_[body]; }
+  const std::vector<int>& rows(int body) const { return parts_[body].rows; }
+  const Eigen::MatrixXd& P(int body) const { return parts_[body].P; }
   /// The rows of the bodies that have only such rows.
   const SingleRows& single_rows() const { return singles_; }
-  bool has_single_rows(int body) const { return single_[body] != 0; }
+  bool has_single_rows(int body) const { return parts_[body].is_single; }
   /// 1 where a y is a rotation.
   bool is_rotation(int y_index) const;
   /// The modal coordinate that a y is; -1: it is a DoF.
@@ -138,20 +138,24 @@ class System {
   /// The y index of a tangent row of an element.
   int tangent_row(int element, Eigen::Index row) const;
   /// The y indices of each of an element's groups; one who has none is one group of all.
-  const std::vector<std::vector<int>>& groups(int element) const { return groups_[element]; }
+  const std::vector<std::vector<int>>& groups(int element) const {
+    return elements_[element].groups;
+  }
   bool has_groups(int element) const { return !this->element(element).groups().empty(); }
   /// f += T dy with the elements' last tangents.
   void add_tangent_forces(const Eigen::VectorXd& dy, Eigen::VectorXd& f) const;
   /// A stage ends with the forces f + T dy: adds T dy to f, and keeps each element's sum where
   /// keep_forces() asked for it.
   void pass_on(const Eigen::VectorXd& dy, Eigen::VectorXd& f);
-  void keep_forces();
+  void keep_forces() { keeps_forces_ = true; }
   /// What an element passed on at the end of the last stage, n_e; empty before the first.
-  const Eigen::VectorXd& passed_force(int element) const { return passed_[element]; }
+  const Eigen::VectorXd& passed_force(int element) const { return elements_[element].passed; }
   /// An element's last response.
-  const Response& response(int element) const { return responses_[element]; }
+  const Response& response(int element) const { return elements_[element].response; }
   /// Response::touched of an element when its last tangent was computed: the tangent's rows.
-  const std::vector<int>& tangent_rows(int element) const { return tangent_rows_[element]; }
+  const std::vector<int>& tangent_rows(int element) const {
+    return elements_[element].tangent_rows;
+  }
   void begin_step(double time);
   void finish_stage(const Stage& stage);
   void accept_step(double time);
@@ -165,33 +169,42 @@ class System {
     bool operator==(const Place&) const = default;
   };
   static constexpr int kFrame = -1, kMode = -2, kSum = -3;
+  /// What a body has of the coordinates.
+  struct BodyPart {
+    int offset = 0;                // its first modal coordinate in eta
+    Eigen::MatrixXd P;             // rows x its modes
+    std::vector<int> rows;         // y indices
+    std::vector<Place> places;     // parallel to rows
+    bool is_single = true;         // it has single rows only
+    mutable Eigen::VectorXd held;  // space for its rows: no step takes memory
+  };
+  /// An element and what is kept of it.
+  struct ElementPart {
+    std::unique_ptr<ForceElement> element;
+    ElementCost cost;
+    std::vector<std::vector<int>> groups;   // y indices
+    Response response;                      // the last one
+    std::vector<int> tangent_rows;          // Response::touched of the last tangent
+    Eigen::VectorXd passed;                 // where forces are kept
+    Eigen::VectorXd y, v;                   // its coordinates
+    mutable Eigen::VectorXd moved, change;  // space for its tangent rows
+  };
   int find_or_add(int body, const Place& place);
   void find_singles(int body);
-  void add_block_forces(size_t element, const Eigen::VectorXd& dy) const;
+  void add_block_forces(const ElementPart& part, const Eigen::VectorXd& dy) const;
   const Place& place_of(int y_index) const;
 
   std::vector<ModalBody> bodies_;
-  std::vector<int> offsets_;
-  std::vector<std::vector<int>> rows_;      // per body: y indices
-  std::vector<std::vector<Place>> places_;  // per body, parallel to rows_
-  std::vector<WeightedDofs> sums_;
-  std::vector<Eigen::MatrixXd> P_;
-  std::vector<char> single_;  // per body: it has single rows only
-  SingleRows singles_;
-  std::vector<int> owner_;  // per y: body
-  std::vector<std::unique_ptr<ForceElement>> elements_;
-  std::vector<ElementCost> costs_;
+  std::vector<BodyPart> parts_;  // of the bodies
+  std::vector<ElementPart> elements_;
   std::vector<Load> loads_;
+  std::vector<int> owner_;  // per y: body
+  std::vector<WeightedDofs> sums_;
+  SingleRows singles_;
   Eigen::VectorXd omega_squared_, damping_, inertia_, second_order_, eta_start_, v_start_;
   int modes_ = 0;
-  std::vector<Response> responses_;                      // per element
-  std::vector<Eigen::VectorXd> passed_;                  // per element, where they are kept
-  std::vector<std::vector<int>> tangent_rows_;           // per element
-  std::vector<std::vector<std::vector<int>>> groups_;    // per element
-  mutable std::vector<Eigen::VectorXd> y_of_, v_of_;     // per element: its coordinates
-  mutable std::vector<Eigen::VectorXd> moved_, change_;  // per element: its tangent rows
-  mutable std::vector<Eigen::VectorXd> part_;            // per body: its rows
-  mutable std::vector<double> row_sums_;                 // of one body's rows, for some vectors
+  bool keeps_forces_ = false;
+  mutable std::vector<double> row_sums_;  // space for one body's rows, for some vectors
 };
 
 /// all(indices) += values.
