@@ -132,7 +132,7 @@ void Reynolds::guess_split() {
     rim_limited_[r] = rim_ratio_[r] * fill_[rims_[r].cell] > 1.0;
   if (!partial_) return;
   for (int c = 0; c < grid_.size(); ++c) {
-    if (outside(c)) full_[c] = 1;
+    if (is(CellKind::kOutside, c)) full_[c] = 1;
     end_limited_[c] = 2.0 * film_.content[c] * fill_[c] > film_.carry[c];
   }
 }

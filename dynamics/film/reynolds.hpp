@@ -215,23 +215,26 @@ class Reynolds {
   Inside inside(const Face& face) const;
   Inside covered_part(const Face& face) const;
   Inside inside(const Rim& rim) const;
-  bool outside(int cell) const {
-    return partial_ && stage_.cover->share[cell % grid_.n_axial()] == 0.0;
-  }
+  /// What a cell is in a stage.
+  enum class CellKind : char {
+    kFilm,
+    kBesideGroove,  // film, part of which a groove covers
+    kGroove,        // pressure and fill are those of its reservoir
+    kWindow,        // without pressure, its fill is not bounded
+    kOutside,       // of the liner: it has the pressure of the edge
+  };
+  CellKind kind_of(int cell) const;
+  bool is(CellKind kind, int cell) const { return kind_[cell] == kind; }
   bool in_recess(int cell) const {
-    return stage_.recesses != nullptr && stage_.recesses->covered(cell) && !outside(cell);
+    return is(CellKind::kGroove, cell) || is(CellKind::kWindow, cell);
   }
-  bool in_groove(int cell) const { return in_recess(cell) && !stage_.recesses->window[cell]; }
-  bool in_window(int cell) const { return in_recess(cell) && stage_.recesses->window[cell]; }
+  /// The pressure or the fill of the cell is given.
+  bool is_given(int cell) const {
+    return is(CellKind::kGroove, cell) || is(CellKind::kOutside, cell);
+  }
   /// The liner carries all of its oil across a window.
   bool within_window(size_t face) const {
-    return in_window(faces_[face].a) && in_window(faces_[face].b);
-  }
-  /// The pressure or the fill of a cell is given.
-  bool fixed(int cell) const { return outside(cell) || in_groove(cell); }
-  bool beside_groove(int cell) const {
-    return stage_.recesses != nullptr && stage_.recesses->share[cell] > 0.0 &&
-           !stage_.recesses->covered(cell) && !outside(cell);
+    return is(CellKind::kWindow, faces_[face].a) && is(CellKind::kWindow, faces_[face].b);
   }
   int content_cell(size_t face) const;
   void edge_of_recess(const Face& face, Inside& in) const;
@@ -279,6 +282,7 @@ class Reynolds {
   std::vector<char> rim_limited_;  // by open edge: the layer is at c
   std::vector<char> end_limited_;  // the same by cell, where the liner ends
   bool partial_ = false;           // part of the pad is outside the liner
+  std::vector<CellKind> kind_;     // by cell
   SplitSearch search_;
   std::vector<int> violated_;
   bool started_ = false;

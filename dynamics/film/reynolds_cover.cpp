@@ -77,7 +77,8 @@ void Reynolds::weigh_ends() {
   for (int c = 0; c < grid_.size(); ++c) {
     const int j = c % grid_.n_axial();
     const double arc = grid_.arc(c / grid_.n_axial());
-    covered_[c] = outside(c) ? 0.0 : slid * arc * (cover.edge[j + 1] - cover.edge[j]);
+    covered_[c] =
+        is(CellKind::kOutside, c) ? 0.0 : slid * arc * (cover.edge[j + 1] - cover.edge[j]);
   }
 }
 

@@ -22,7 +22,9 @@ double Reynolds::lift(const Face& face, double speed) const {
   const int upstream = speed > 0.0 ? face.a : face.b, downstream = speed > 0.0 ? face.b : face.a;
   const int beyond = speed > 0.0 ? face.beyond_a : face.beyond_b;
   const double here = (*profile)[upstream], whole = layers() ? here : 1.0 - here;
-  if (beyond < 0 || whole <= 0.0 || outside(beyond) || outside(downstream)) return 0.0;
+  if (beyond < 0 || whole <= 0.0 || is(CellKind::kOutside, beyond) ||
+      is(CellKind::kOutside, downstream))
+    return 0.0;
   if (in_recess(upstream) || in_recess(beyond) || in_recess(downstream)) return 0.0;
   const double up = here - (*profile)[beyond], down = (*profile)[downstream] - here;
   if (up * down <= 0.0) return 0.0;
@@ -77,7 +79,7 @@ Eigen::ArrayXd Reynolds::profile() const {
 
 ValueSlope Reynolds::sheared(int cell) const {
   if (in_recess(cell)) return {0.0, 0.0};
-  const double land = beside_groove(cell) ? 1.0 - stage_.recesses->share[cell] : 1.0;
+  const double land = is(CellKind::kBesideGroove, cell) ? 1.0 - stage_.recesses->share[cell] : 1.0;
   if (is_full(cell) || !layers()) return {land * fill_[cell], is_full(cell) ? 0.0 : land};
   const bool both_walls = fill_[cell] > 0.5;
   return {both_walls ? land * (2.0 * fill_[cell] - 1.0) : 0.0, both_walls ? land * 2.0 : 0.0};

@@ -10,13 +10,13 @@ namespace clatter::film {
 // groove the one whose gap it fills.
 int Reynolds::content_cell(size_t face) const {
   const int upstream = upstream_of(face);
-  if (!in_groove(upstream)) return upstream;
+  if (!is(CellKind::kGroove, upstream)) return upstream;
   return upstream == faces_[face].a ? faces_[face].b : faces_[face].a;
 }
 
 // Cells reach as far as their part that is not in a recess, whose edge lies between them.
 void Reynolds::edge_of_recess(const Face& face, Inside& in) const {
-  if (outside(face.a) || outside(face.b)) return;
+  if (is(CellKind::kOutside, face.a) || is(CellKind::kOutside, face.b)) return;
   const double land_a = 1.0 - stage_.recesses->share[face.a],
                land_b = 1.0 - stage_.recesses->share[face.b];
   if (land_a == 1.0 && land_b == 1.0) return;
@@ -45,9 +45,9 @@ void Reynolds::edge_of_recess(const Face& face, Inside& in) const {
 void Reynolds::guess_recesses() {
   for (int c = 0; c < grid_.size(); ++c) {
     if (!in_recess(c)) continue;
-    const bool full = in_groove(c) && stage_.recesses->fill[c] == 1.0;
+    const bool full = is(CellKind::kGroove, c) && stage_.recesses->fill[c] == 1.0;
     full_[c] = full ? 1 : 0;
-    if (in_groove(c)) fill_[c] = stage_.recesses->fill[c];
+    if (is(CellKind::kGroove, c)) fill_[c] = stage_.recesses->fill[c];
   }
 }
 
@@ -55,7 +55,7 @@ void Reynolds::weigh_reservoirs(double mobility) {
   exchange_.setZero();
   if (stage_.recesses == nullptr) return;
   for (int c = 0; c < grid_.size(); ++c) {
-    if (!beside_groove(c)) continue;
+    if (!is(CellKind::kBesideGroove, c)) continue;
     const double g = film_.flow_axial[c];
     exchange_[c] = mobility * g * g * g * grid_.arc(c / grid_.n_axial()) /
                    grid_.height(c % grid_.n_axial()) *
@@ -68,8 +68,8 @@ void Reynolds::add_reservoirs(double mobility, const RowMatrix& dh) {
   const Eigen::Index k = dh.cols();
   for (int c = 0; c < grid_.size(); ++c) {
     auto row = work_.row(row_[c]).head(k);
-    if (in_groove(c)) row.setZero();
-    if (!beside_groove(c)) continue;
+    if (is(CellKind::kGroove, c)) row.setZero();
+    if (!is(CellKind::kBesideGroove, c)) continue;
     const double g = film_.flow_axial[c];
     row -= mobility * 3.0 * g * g * film_.d_flow_axial[c] * grid_.arc(c / grid_.n_axial()) /
            grid_.height(c % grid_.n_axial()) * groove_conductance(stage_.recesses->share[c]) *

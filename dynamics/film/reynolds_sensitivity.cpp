@@ -79,7 +79,7 @@ void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative,
     for (int c = 0; c < grid_.size(); ++c) row(c) -= slopes[c] * height->transpose();
   }
   for (int c = 0; partial_ && c < grid_.size(); ++c)
-    if (outside(c)) row(c).setZero();
+    if (is(CellKind::kOutside, c)) row(c).setZero();
   if (reservoirs_ && stage_.recesses != nullptr) add_reservoirs(mobility, dh);
   lu_.solve_rows(work_.data(), static_cast<int>(work_.cols()));
   derivative.resize(grid_.size(), k);

@@ -8,12 +8,22 @@
 
 namespace clatter::film {
 
+Reynolds::CellKind Reynolds::kind_of(int cell) const {
+  if (partial_ && stage_.cover->share[cell % grid_.n_axial()] == 0.0) return CellKind::kOutside;
+  const RecessCells* recesses = stage_.recesses;
+  if (recesses == nullptr || recesses->share[cell] == 0.0) return CellKind::kFilm;
+  if (!recesses->covered(cell)) return CellKind::kBesideGroove;
+  return recesses->window[cell] ? CellKind::kWindow : CellKind::kGroove;
+}
+
 void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before,
                      const FilmStage& stage) {
   const double kappa = stage.steady ? 1.0 : stage.kappa;
   const double mobility = kappa / (12.0 * stage.viscosity);
   double conduct_sum = 0.0, carry_sum = 0.0;
   partial_ = stage.cover != nullptr && (stage.cover->share < 1.0).any();
+  kind_.resize(grid_.size());
+  for (int c = 0; c < grid_.size(); ++c) kind_[c] = kind_of(c);
   auto weigh_one = [&](double conductance, double carry, double length, const Inside& in,
                        bool axial, double& t, double& c) {
     t = mobility * conductance * (length * in.length) / in.distance;
@@ -43,7 +53,7 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
   }
   for (size_t r = 0; r < rims_.size(); ++r) {
     const Rim& rim = rims_[r];
-    if (outside(rim.cell)) {
+    if (is(CellKind::kOutside, rim.cell)) {
       rim_conduct_[r] = rim_carry_[r] = rim_entering_[r] = 0.0;
       rim_ratio_[r] = 1.0;
       continue;
@@ -84,18 +94,18 @@ void Reynolds::assemble() {
   lu_.set_zero();
   auto row_of = [this](int cell) { return row_[cell]; };
   auto add = [&](int cell, int unknown, double value) {
-    if (!fixed(cell)) lu_.at(row_of(cell), row_of(unknown)) += value;
+    if (!is_given(cell)) lu_.at(row_of(cell), row_of(unknown)) += value;
   };
   auto give = [&](int cell, double value) {
-    if (!fixed(cell)) x_[row_of(cell)] += value;
+    if (!is_given(cell)) x_[row_of(cell)] += value;
   };
   for (int c = 0; c < grid_.size(); ++c) {
-    if (outside(c)) {
+    if (is(CellKind::kOutside, c)) {
       x_[row_of(c)] = edges_.liner_end.pressure / pressure_scale_;
       lu_.at(row_of(c), row_of(c)) = 1.0;
       continue;
     }
-    if (in_groove(c)) {
+    if (is(CellKind::kGroove, c)) {
       x_[row_of(c)] =
           is_full(c) ? stage_.recesses->pressure[c] / pressure_scale_ : stage_.recesses->fill[c];
       lu_.at(row_of(c), row_of(c)) = 1.0;
@@ -163,9 +173,9 @@ void Reynolds::unpack() {
     const bool full = is_full(c);
     pressure_[c] = full ? (cavitation_ ? std::max(value, 0.0) : value) * pressure_scale_ : 0.0;
     // Beyond the bounds by rounding; a window holds more than its own gap.
-    fill_[c] = outside(c) ? 0.0
-               : full     ? 1.0
-                          : std::clamp(value, 0.0, in_window(c) ? INFINITY : 1.0);
+    fill_[c] = is(CellKind::kOutside, c) ? 0.0
+               : full                    ? 1.0
+                      : std::clamp(value, 0.0, is(CellKind::kWindow, c) ? INFINITY : 1.0);
   }
 }
 
@@ -213,9 +223,9 @@ void Reynolds::measure() {
       magnitude_[c] +=
           exchange_[c] * (pressure_[c] + stage_.recesses->pressure[c]) / pressure_scale_;
     }
-    if (in_groove(c))
+    if (is(CellKind::kGroove, c))
       given = -balance[c];
-    else if (outside(c))
+    else if (is(CellKind::kOutside, c))
       flow = -balance[c];
     else if (magnitude_[c] > 0.0)
       residual_ = std::max(residual_, std::abs(balance[c]) / magnitude_[c]);
