@@ -201,7 +201,7 @@ class Interaction(StandIns):
         self.assertEqual(markdown.few_effects(found, ["value"])[0], "| effect | switched | value | its share of the time | advice |")
         # Without a value of one quantity it is kept, without any it could not be run.
         found.switches[0].changes[1] = None
-        self.assertTrue(effects.report(found)[0].endswith("keep, not all is known with it off"), effects.report(found)[0])
+        self.assertTrue(effects.report(found)[0].endswith("keep (some results cannot be computed without it)"), effects.report(found)[0])
         found.switches[0].changes[0] = None
         self.assertTrue(effects.report(found)[0].endswith("cannot be switched off here: see what its stage said"))
 
