@@ -276,9 +276,9 @@ TEST_F(Components, AreRefusedByTableKeyAndName) {
   expect(body + "[[bushings]]\n",
          "mechanism.run.toml:7: bushings: unknown key, did you mean bushing?");
   expect(body + "[small_end]\nexponent = 1\n", "small_end: needs [engine]");
-  expect("",
-         "body: found no body, expected [engine] with [piston], or [[body]], [[rigid_body]], "
-         "[[valve]], [[shaft]]");
+  expect(
+      "",
+      "body: give [engine] with [piston], or a [[body]], [[rigid_body]], [[valve]] or [[shaft]]");
   expect(body + "motion = \"plane\"\n",
          "mechanism.run.toml:7: rigid_body[0].motion: found \"plane\", expected one of: xy, yz");
   expect(body + body, "mechanism.run.toml:7: a second body named \"bar\"");
