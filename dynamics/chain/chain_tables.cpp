@@ -151,8 +151,7 @@ const Keys<LinkMass>& link_keys() {
 
 const Keys<JointLaw>& link_joint_keys() {
   static const Keys<JointLaw> keys(
-      "joint", "pin, bush and plates between links",
-      [](auto& key, JointLaw& law) {
+      "joint", "pin, bush and plates between links", [](auto& key, JointLaw& law) {
         key.number("stiffness_n_m", law.stiffness, Range::between(1.0, 1e15),
                    "of pin, bush and plates beyond the clearance")
             .required();
@@ -167,8 +166,7 @@ const Keys<JointLaw>& link_joint_keys() {
           if (found.friction > 0.0 && !table.has("pin_mm"))
             table.fail("pin_mm", "is missing, friction above 0 needs it");
         });
-      },
-      JointLaw{1e7, 0.0, 0.0, 0.0, 1.65e-3, 0.02});
+      });
   return keys;
 }
 
