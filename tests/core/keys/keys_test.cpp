@@ -201,7 +201,8 @@ TEST(Keys, TheReferenceSaysWhatTheReaderDoes) {
 }
 
 struct Gearbox {
-  Oil oil, thick{.viscosity = 0.2};
+  Gearbox() { thick.viscosity = 0.2; }
+  Oil oil, thick;
 };
 
 TEST(Keys, TheReferenceHasTheDefaultsOfTheMemberWhereItsStructHasOthers) {
