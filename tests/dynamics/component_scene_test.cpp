@@ -299,7 +299,7 @@ TEST_F(Components, AreRefusedByTableKeyAndName) {
   expect(body + "[[spring]]\n" + a + "b = {}\nlength_mm = 1\n" + stiff,
          "mechanism.run.toml:9: spring[0].b: is the same point as a");
   expect(body + "[[bushing]]\n" + a + "b = {}\nstiffness_n_m = 0\n",
-         "bushing[0].stiffness_n_m: found 0 and no damping");
+         "bushing[0].stiffness_n_m: give stiffness_n_m or damping_n_s_m above 0");
   expect(body + "[[load]]\nbody = \"bar\"\ncomponent = \"z\"\nvalue = 1\n",
          "load.component: found \"z\", expected one that \"bar\" follows");
   expect(body + "[[load]]\nbody = \"bar\"\nset = \"tip\"\ncomponent = \"x\"\nvalue = 1\n",
