@@ -41,9 +41,9 @@ BuiltModel make_model(const std::filesystem::path& mesh_path, const Config& conf
     const MatrixFiles files = matrix_files_keys().read(*table);
     config.finish();
     if (mesh.has_value() != files.dofs.empty())
-      throw InputError(fmt::format("{}: [matrices]: found {}, expected one of the two",
-                                   config.where(),
-                                   mesh ? "a mesh and dofs" : "neither a mesh nor dofs"));
+      throw InputError(fmt::format("{}: [matrices]: {}", config.where(),
+                                   mesh ? "a mesh and dofs exclude each other: both name the rows"
+                                        : "needs a mesh or dofs, which name the rows"));
     inputs.insert(inputs.end(), {files.K, files.M});
     if (!files.dofs.empty()) inputs.push_back(files.dofs);
     BuiltModel built = import_matrices(files, mesh ? &*mesh : nullptr);

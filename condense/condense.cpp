@@ -73,7 +73,7 @@ void finish(const Config& config, CondenseOptions& options) {
     if (std::find(boundary.begin(), boundary.end(), name) != boundary.end())
       config.fail("rows", fmt::format("\"{}\" is retained already (boundary)", name));
   if (modes.accurate_to_hz > 0.0 && modes.frequency_error == 0.0)
-    config.fail("frequency_error", "found 0 with accurate_to_hz, expected the error to reach");
+    config.fail("accurate_to_hz", "needs frequency_error above 0, the error to reach");
   modes.own_modes = options.method == "craig-chang";
   options.modal_damping = damping_table(config, options.damping_rows);
   if (options.interface) choose_sets(config.table("interface"), boundary, *options.interface);

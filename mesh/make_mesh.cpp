@@ -109,8 +109,8 @@ NewMesh make_any_mesh(const MeshRequest& a, StepClock& clock) {
   if (is_cad(a.input)) return mesh_bare_cad(a, clock);
   if (deck::is_deck(a.input) || is_mesh_file(a.input)) {
     if (a.units.empty())
-      throw InputError(fmt::format("{}: found no --units, expected one (decks have no units)",
-                                   a.input.string()));
+      throw InputError(
+          fmt::format("{}: needs --units: a deck does not say its own", a.input.string()));
     return read_mesh_of_deck(a.input, unit_system_named(a.units, "--units"),
                              {a.ignore, mass_form(a.mass, "--mass")}, a.input.stem().string(),
                              a.limits, clock);

@@ -61,8 +61,7 @@ void write_new_mesh(const MeshArguments& a, const CommonOptions& common) {
   const NewMesh made = make_mesh(request, clock);
   for (const std::string& line : describe(made)) print_result(line);
   if (!a.recipe.empty() && made.recipe.empty())
-    throw InputError(
-        fmt::format("{}: found no deck, expected one for --recipe", request.input.string()));
+    throw InputError(fmt::format("{}: --recipe needs a deck", request.input.string()));
   write_artefact(request.output, made.provenance, clock, common, [&](H5File& file) {
     write_mesh(file, made.mesh);
     write_quality(file, made.quality);

@@ -169,8 +169,8 @@ std::vector<ChosenLine> choose_lines_of(const Analysis* analysis, const Summary&
   if (analysis == nullptr) {
     if (options.lines.requested())
       throw InputError(
-          "lines: found only windows averaged over segments, expected a cycle or a "
-          "window in one segment, which have amplitudes and phases");
+          "lines need a cycle or a window in one segment, which have amplitudes and phases: all "
+          "windows are averaged over segments");
     return {};
   }
   const double to_hz = analysis->piece.limit_hz(limit.to_hz, step_s);

@@ -197,9 +197,8 @@ fe::HeatField solve_one_heat(const PartData& part, const HeatSpec& spec,
   add_heat(problem, reactions, size, field);
   // Written so that NaN is also refused.
   if (!(field.balance <= kHeatBalance))
-    throw NumericsError(
-        fmt::format("{}: found heat that balances to {:.3g}, expected at most {:.0e}", spec.where,
-                    field.balance, kHeatBalance));
+    throw NumericsError(fmt::format("{}: heat balance error {:.3g}, allowed {:.0e}", spec.where,
+                                    field.balance, kHeatBalance));
   return field;
 }
 

@@ -20,7 +20,8 @@ void finish_displacement(const Config& table, LoadTable& load) {
   const bool turns = spec.directions.back() >= 3;
   for (const int d : spec.directions)
     if ((d >= 3) != turns)
-      table.fail("directions", "found displacements and rotations, expected one of them");
+      table.fail("directions",
+                 "displacements and rotations exclude each other: value is a length or an angle");
   spec.value = (turns ? 1.0 : table.metre()) * *load.value;
 }
 

@@ -165,7 +165,7 @@ const keys::Keys<MassTable>& RecipeKeys::point_mass_keys() {
         inertia(2, 0) = inertia(0, 2) = J[5];
       }
       if (m.spec.mass == 0.0 && inertia.isZero(0.0))
-        table.fail("mass", "found 0 and no inertia, expected one of them above 0");
+        table.fail("mass", "give mass or inertia above 0");
       // No body has negative second moments tr(J)/2 I - J.
       const Eigen::Vector3d moments =
           Eigen::Vector3d::Constant(0.5 * inertia.trace()) - inertia.diagonal();

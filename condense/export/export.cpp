@@ -64,8 +64,8 @@ UnitSystem units_of(const Format& format, const rom::ReducedModel& model, const 
                     const ExportOptions& options) {
   const UnitSystem si;
   if (options.units && format.units == Units::kOnlySi && options.units->name != si.name)
-    throw InputError(fmt::format("{}: found --units {}, expected none: {} is in SI", path.string(),
-                                 options.units->name, format.program));
+    throw InputError(fmt::format("{}: --units {} and {} exclude each other: it is in SI",
+                                 path.string(), options.units->name, format.program));
   if (options.units) return *options.units;
   if (format.units != Units::kDeck || !model.deck.known()) return si;
   return unit_system_named(model.deck.units, model.name);

@@ -58,8 +58,8 @@ VectorXd areas_of(const rom::ReducedModel& model, const InterfaceOptions& option
   for (const std::string& name : options.sets) {
     if (!model.grids.contains(name))
       throw InputError(
-          fmt::format("{}: interface.weight: found \"area\" with set \"{}\", expected "
-                      "contact grids only",
+          fmt::format("{}: interface.weight: weight = \"area\" needs contact grids, \"{}\" is "
+                      "another set",
                       model.name, name));
     const VectorXd areas = patch_areas(model.grid(name));
     const std::vector<int32_t>& dofs = model.set(name).dofs;

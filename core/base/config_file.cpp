@@ -56,7 +56,7 @@ void change_entries(toml::array& entries, toml::table& changes, const std::strin
     if (!value.is_table())
       throw InputError(place +
                        ": found a value, expected the keys to change of the entry of this "
-                       "name, or [[tables]] in place of those of the base");
+                       "name, or [[tables]] instead of those of the base");
     toml::table* entry = entry_of(entries, key.str());
     if (entry == nullptr) throw InputError(place + ": the base has no entry of this name");
     overlay(*entry, *value.as_table(), fmt::format("{}{}.", prefix, std::string_view(key.str())));

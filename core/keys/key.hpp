@@ -4,6 +4,7 @@
 // schemas for editors all come from it.
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,8 @@ struct Key {
   bool ascending = false;  // of lists of numbers
   std::vector<Rule> rules;
   const Table* table = nullptr;  // of kTable, kTables and kNamed
+  std::shared_ptr<const Table>
+      own;  // that table, where the member has other defaults than its struct
 
   /// Without it the struct's value holds; not where a rule may require the key.
   bool has_standard() const;

@@ -168,6 +168,23 @@ void Table::write_standards(const std::byte* standard) {
     if (key.written)
       key.standard =
           key.has_standard() && !is_alternative(key) ? key.written(key, standard + key.offset) : "";
+  for (Key& key : keys_)
+    if (key.type == Type::kTable && key.each)
+      key.each(standard + key.offset, [&key](const std::string&, const std::byte* member) {
+        auto own = std::make_shared<Table>(*key.table);
+        own->write_standards(member);
+        if (own->has_standards_of(*key.table)) return;
+        key.own = own;
+        key.table = own.get();
+      });
+}
+
+bool Table::has_standards_of(const Table& other) const {
+  return std::equal(keys_.begin(), keys_.end(), other.keys_.begin(), other.keys_.end(),
+                    [](const Key& a, const Key& b) {
+                      return a.standard == b.standard &&
+                             (a.type != Type::kTable || a.table->has_standards_of(*b.table));
+                    });
 }
 
 }  // namespace clatter::keys

@@ -51,7 +51,10 @@ class Table {
   bool applies(const Key& key, const Config& table, const std::byte* object) const;
   bool holds(const Rule& rule, const Config& table, const std::byte* object) const;
 
+  /// The defaults are what the object has, also those of the tables below.
   void write_standards(const std::byte* standard);
+  /// Of a copy: no default differs.
+  bool has_standards_of(const Table& other) const;
 
   std::string name_, meaning_;
   std::vector<Key> keys_;

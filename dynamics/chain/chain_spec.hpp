@@ -36,7 +36,7 @@ struct ChainSpec {
   std::string name, where;
   int normal = 2;  // axis across the plane, 0 to 2
   ChainMake make;
-  JointLaw joint;
+  JointLaw joint{.damping = 0.0};
   std::filesystem::path pitch_table;  // of each link's pitch error; empty: none
   double bush_radius = 0.0;           // [m]
   double half_height = 0.0;           // of the plates from the line of the pins [m]

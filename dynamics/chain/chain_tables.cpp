@@ -151,8 +151,7 @@ const Keys<LinkMass>& link_keys() {
 
 const Keys<JointLaw>& link_joint_keys() {
   static const Keys<JointLaw> keys(
-      "joint", "pin, bush and plates between links",
-      [](auto& key, JointLaw& law) {
+      "joint", "pin, bush and plates between links", [](auto& key, JointLaw& law) {
         key.number("stiffness_n_m", law.stiffness, Range::between(1.0, 1e15),
                    "of pin, bush and plates beyond the clearance")
             .required();
@@ -167,8 +166,7 @@ const Keys<JointLaw>& link_joint_keys() {
           if (found.friction > 0.0 && !table.has("pin_mm"))
             table.fail("pin_mm", "is missing, friction above 0 needs it");
         });
-      },
-      JointLaw{1e7, 0.0, 0.0, 0.0, 1.65e-3, 0.02});
+      });
   return keys;
 }
 
@@ -193,7 +191,7 @@ const Keys<MattressLaw>& foundation_keys() {
 
 const Keys<OverTable>& over_keys() {
   static const Keys<OverTable> keys(
-      "over", "a sprocket or a guide over which the chain runs, in running order",
+      "over", "a sprocket or a guide over which the chain runs, in running order, a sprocket first",
       [](auto& key, OverTable& over) {
         const Range measure = Range::between(1e-6, 1e6);
         key.where(over.where);
@@ -208,7 +206,7 @@ const Keys<OverTable>& over_keys() {
         key.choice(
             "turn", over.turn,
             {{"clockwise", Turn::kClockwise}, {"counter-clockwise", Turn::kCounterClockwise}},
-            "of the chain around it");
+            "of the chain around it, in the plane's axes");
         key.table("contact", over.law, foundation_keys()).required();
         key.integer("teeth", over.teeth, Range::between(5.0, 10000.0), "teeth of a sprocket")
             .of("sprocket");
@@ -252,11 +250,12 @@ const Keys<ChainTable>& chain_keys() {
         key.integer("links", chain.links, Range::between(4.0, 100000.0), "links, an even number")
             .required();
         key.choice("first", chain.first, {{"inner", LinkKind::kInner}, {"outer", LinkKind::kOuter}},
-                   "its first link");
+                   "kind of link 0");
         key.number("pitch_mm", chain.pitch, kLength, "pitch of a link without errors").required();
         key.numbers("pitch_errors_um", chain.errors, Range::between(-1e9, 1e9),
                     "what the pitches of the links in turn are more");
-        key.path("pitch_table", chain.pitch_table, "CSV of that for each link, from 0 on")
+        key.path("pitch_table", chain.pitch_table,
+                 "CSV of that for each link, from 0 on: link [1], error [um]")
             .excludes("pitch_errors_um");
         key.text("pitch_column", chain.pitch_column,
                  "column of the table; without it the second one")

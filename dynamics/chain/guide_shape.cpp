@@ -88,7 +88,9 @@ void add_circles(const Segment& segment, const Profile& profile, double begin, d
 
 const keys::Keys<SegmentTable>& segment_keys() {
   static const keys::Keys<SegmentTable> keys(
-      "segment", "a part of the outline of a guide", [](auto& key, SegmentTable& segment) {
+      "segment",
+      "a part of the outline of a guide, in running direction, in the plane's axes at the start",
+      [](auto& key, SegmentTable& segment) {
         const Range far = Range::between(-kFarMm, kFarMm);
         key.table("arc", segment.arc, arc_keys());
         key.numbers("line_mm", segment.line, far, "x, y of both ends of a line");

@@ -25,10 +25,13 @@ void check_body_motion(const Config& table, BodySpec& body) {
   body.is_placed = table.has("centre_mm");
   if (body.motion != BodyMotion::kSpace) return;
   if (!body.elastic)
-    table.fail("model", "found \"rigid\" with motion = \"space\", expected [[rigid_body]] instead");
+    table.fail("model",
+               "model = \"rigid\" and motion = \"space\" exclude each other: a [[rigid_body]] "
+               "moves in space");
   if (body.mode_limit_hz > 0.0)
     table.fail("mode_limit_hz",
-               "found with motion = \"space\", whose modes all keep their inertia: condense fewer");
+               "mode_limit_hz and motion = \"space\" exclude each other: all modes of such a body "
+               "keep their inertia, condense fewer");
 }
 
 }  // namespace

@@ -12,8 +12,7 @@ void check_crank(const Config& table, CrankBody& crank) {
   crank.in_bearings = table.has("bearing");
   if (!crank.in_bearings && !crank.is_free)
     table.fail("bearing",
-               "found none, and the speed is prescribed, expected [[crank.bearing]], or speed = "
-               "\"free\": a crank without both needs no [crank]");
+               "give [[crank.bearing]] or speed = \"free\": a crank without both needs no [crank]");
   if (crank.in_bearings && crank.diametral < 0.5 * crank.polar)
     table.fail("diametral_kg_m2", fmt::format("found {:g}, expected at least {:g}, half of "
                                               "polar_kg_m2, as that of a thin disc",
@@ -35,7 +34,8 @@ const Keys<CrankBody>& crank_body_keys() {
     key.number("mass_kg", crank.mass, Range::between(1e-6, 1e7), "mass, with the flywheel")
         .of("bearing");
     key.number("diametral_kg_m2", crank.diametral, moment,
-               "moment of inertia across the axis, about the centre of mass")
+               "moment of inertia across the axis, about the centre of mass: at least half of "
+               "polar_kg_m2")
         .of("bearing");
     key.number("centre_mm", crank.centre, kPositionMm, "x of the centre of mass").of("bearing");
     key.check(check_crank);

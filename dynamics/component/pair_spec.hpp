@@ -29,7 +29,7 @@ keys::Row pair_rows(Keys<S>& key, S& pair) {
       .required();
   key.check([](const Config& table, S& found) {
     if (table.has("stiffness_n_m") && found.stiffness == 0.0 && found.damping == 0.0)
-      table.fail("stiffness_n_m", "found 0 and no damping, expected one of both above 0");
+      table.fail("stiffness_n_m", "give stiffness_n_m or damping_n_s_m above 0");
   });
   key.number("damping_n_s_m", pair.damping, kAnyDamping, "damping");
   return key.number("stiffness_n_m", pair.stiffness, kAnyStiffness, "stiffness");

@@ -62,7 +62,8 @@ const Keys<CrankBearingTable>& crank_bearing_keys() {
         key.number("stiffness_n_m", bearing.stiffness, Range::between(1e-3, 1e20), "of the spring")
             .of("model", "linear");
         key.path("table", bearing.table,
-                 "CSV of the radial force over the eccentricity, which rises from 0 at 0")
+                 "CSV of the radial force [N] or [kN] over the eccentricity [um], which rises from "
+                 "0 at 0")
             .of("model", "table");
         key.text("column", bearing.column, "column of the table; without it the second one")
             .needs("table");

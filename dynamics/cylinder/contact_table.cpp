@@ -85,13 +85,15 @@ void check_contact_surfaces(const Config& table, ContactTable& contact) {
     asperity.from_summits = true;
   }
   if (!options.effects.film && !options.effects.asperities)
-    table.fail("asperities", "found false without a film, expected at least one of the two");
+    table.fail("asperities",
+               "asperities = false and lubrication = \"none\" exclude each other: nothing would "
+               "carry the skirt");
   const film::RoughnessOptions& rough = options.roughness;
   if (rough.stress_factors && !rough.flow_factors)
     table.fail("friction_factors", "needs flow_factors = true");
   if (!options.effects.film || !rough.flow_factors) return;
   if (rough.piston == 0.0 && rough.liner == 0.0)
-    table.fail("flow_factors", "both walls are smooth, expected a roughness above 0");
+    table.fail("flow_factors", "needs a roughness above 0: both walls are smooth");
   with_context(table.where("peklenik"), [&] { film::RoughFilm{rough}; });
 }
 
@@ -122,24 +124,28 @@ void add_skirt(ContactKeys& key, ContactTable& contact) {
   key.number("pad_span_deg", options.pad_span, Range::between(1.0, 180.0),
              "angle that each pad covers");
   key.integer("cells_around", contact.cells_around, Range::between(2.0, 400.0),
-              "cells along the circumference: 10 of a pad, 40 of the entire skirt without it");
+              "cells along the circumference, of an entire skirt an even number: 10 of a pad, 40 "
+              "of the entire skirt without it");
   key.integer("cells_along", options.cells_along, Range::between(2.0, 400.0),
-              "cells along the skirt");
+              "cells along the skirt: more than around, as the stroke carries oil along them");
   film::SkirtShape& shape = options.skirt;
-  key.number("barrel_apex_mm", shape.barrel_apex, kHeightMm, "height of the largest diameter");
+  key.number("barrel_apex_mm", shape.barrel_apex, kHeightMm,
+             "height of the largest diameter, from which a parabola leads to each end");
   key.number("barrel_top_um", shape.barrel_top, kDeviationUm, "relief at the upper end");
   key.number("barrel_bottom_um", shape.barrel_bottom, kDeviationUm, "relief at the lower end");
   key.number("ovality_um", shape.ovality, kDeviationUm, "relief in the direction of the pin");
   key.numbers("profile_height_mm", shape.table_height, kHeightMm, "heights of the skirt's profile")
       .ascending()
       .needs("profile_relief_um");
-  key.numbers("profile_relief_um", shape.table_relief, kDeviationUm, "radial relief there")
+  key.numbers("profile_relief_um", shape.table_relief, kDeviationUm,
+              "radial relief there, linear in between, constant beyond")
       .as_many_as("profile_height_mm");
   key.numbers("bore_height_mm", contact.bore_height, kHeightMm,
               "heights of the bore's profile above the crank axis")
       .ascending()
       .needs("bore_widening_um");
-  key.numbers("bore_widening_um", contact.bore_widening, kDeviationUm, "radial widening there")
+  key.numbers("bore_widening_um", contact.bore_widening, kDeviationUm,
+              "radial widening there, linear in between, constant beyond")
       .as_many_as("bore_height_mm");
   key.tables("bore_shape", contact.bore_shapes, shape_keys(), "deviation of the bore");
   key.tables("skirt_shape", contact.skirt_shapes, shape_keys(), "deviation of the skirt");
@@ -172,7 +178,8 @@ void add_film(ContactKeys& key, ContactTable& contact) {
              {{"layer", film::Cavity::kLayer}, {"striated", film::Cavity::kStriated}},
              "where the oil is that does not fill the gap: a layer on the liner, or strips");
   key.number("oil_thickness_um", options.oil_thickness, Range::between(1e-3, 1e5),
-             "layer on the liner into which the skirt slides; without it the fills alone hold");
+             "layer on the liner into which the skirt slides, which bounds inflow and content at "
+             "the start; without it the fills alone hold");
   key.number("supply_pressure_bar", options.supply_pressure, Range::between(0.0, 1e4),
              "pressure of oil at all edges of the skirt over that of the crankcase");
   key.table("oil", contact.oil, oil_keys());

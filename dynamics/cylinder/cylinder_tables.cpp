@@ -66,14 +66,14 @@ CylinderSpec read_cylinder(const Config& tables, const EngineTable& engine, doub
   cylinder.big_end = read_joint(tables, "big_end");
   if (cylinder.rod.model == RodModel::kMassless && cylinder.has_free_crank())
     tables.table("rod").fail("model",
-                             "found \"massless\" with crank.speed = \"free\", expected a "
-                             "rod with mass");
+                             "model = \"massless\" and crank.speed = \"free\" exclude each "
+                             "other: give a rod with mass");
   for (const auto& [key, joint] :
        {std::pair{"small_end", &cylinder.small_end}, {"big_end", &cylinder.big_end}}) {
     if (cylinder.rod.model == RodModel::kMassless && (joint->friction || joint->film))
       tables.fail(key,
-                  "found friction or an oil film with rod.model = \"massless\", expected "
-                  "neither: such a rod bears no moment");
+                  "friction or an oil film and rod.model = \"massless\" exclude each other: such "
+                  "a rod bears no moment");
   }
   if (const auto table = tables.find_table("pin_guide")) cylinder.guide = guide_keys().read(*table);
   return cylinder;

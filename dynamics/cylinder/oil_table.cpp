@@ -70,11 +70,13 @@ const keys::Keys<OilTable>& oil_keys() {
             .needs("temperature_c");
         key.number("pressure_coefficient_1_gpa", oil.laws.pressure_coefficient,
                    Range::between(0.0, 100.0),
-                   "alpha of exp(alpha p), the growth of the viscosity with pressure; 0: none");
+                   "alpha of exp(alpha p), the growth of the viscosity with pressure: 15 to 25 of "
+                   "mineral oils; 0: none");
         key.number("shear_rate_1_s", oil.cross.rate, Range::between(1.0, 1e12),
                    "shear rate at which half of the part of polymers is left");
         key.number("shear_ratio", oil.cross.ratio, Range::between(0.0, 1.0),
-                   "viscosity at the highest shear rates over that at rest")
+                   "viscosity at the highest shear rates over that at rest: 0.4 to 0.8 of "
+                   "multigrade oils")
             .of("shear_rate_1_s");
         key.number("shear_exponent", oil.cross.exponent, Range::between(0.1, 2.0),
                    "of the shear rate")

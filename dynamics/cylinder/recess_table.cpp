@@ -51,7 +51,7 @@ const keys::Keys<RecessTable>& recess_keys() {
               key.number("pressure_bar", table.recess.pressure, Range::between(0.0, 1e4),
                          "pressure of the oil in the groove over that of the crankcase");
               key.number("fill", table.recess.fill, Range::between(0.0, 1.0),
-                         "part of the groove that is full of oil");
+                         "part of the groove that is full of oil; 0 of a port in the liner");
             });
         key.check(check_recess);
       });

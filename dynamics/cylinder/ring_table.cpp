@@ -40,7 +40,7 @@ const Keys<RingTable>& ring_keys() {
         key.number("least_um", ring.least, Range::between(0.0, 1e3),
                    "least layer of oil that it leaves: that in the valleys of the honing");
         key.number("gas_share", ring.gas_share, Range::between(0.0, 1.0),
-                   "pressure behind it over that of the gas");
+                   "pressure behind it over that of the gas, at most that of the ring above");
         key.number("width_mm", ring.width, size, "along the stroke");
         key.number("thickness_mm", ring.thickness, size, "radial, in its groove");
         key.number("mass_g", ring.mass, Range::between(0.0, 1e6), "mass");

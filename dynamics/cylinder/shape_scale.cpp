@@ -57,7 +57,7 @@ film::ScaledShape scaled_shape(const ScaledShapeSpec& spec, const CylinderSpec& 
     return {spec.shape, [turn = crank.turn, table = *scale.factor](double time) {
               return scale_at(turn(time), table, 0.0, 1.0);
             }};
-  if (!gas) throw InputError(scale.where + ": found \"gas\" in a scene without it, expected [gas]");
+  if (!gas) throw InputError(scale.where + ": scale = \"gas\" needs [gas]");
   return {spec.shape,
           [turn = crank.turn, table = *gas, ambient = cylinder.gas->ambient,
            at = scale.reference](double time) { return scale_at(turn(time), table, ambient, at); }};

@@ -42,9 +42,7 @@ void PistonLiner::check_recesses() const {
     int cells = 0;
     for (const auto& pad : pads_) cells += pad->recesses->map.cells_of(k);
     if (cells == 0)
-      fail(
-          "found no cell's centre in it, expected at least one: it is smaller than a cell, or "
-          "beside the pads");
+      fail("the recess covers no cell: it is smaller than a cell or outside the pads");
   }
 }
 

@@ -16,12 +16,11 @@ RoughFilm::RoughFilm(const RoughnessOptions& options) : options_(options) {
                                  options.liner));
   sigma_ = std::hypot(options.piston, options.liner);
   if (!options.flow_factors) {
-    if (options.stress_factors)
-      throw InputError("friction_factors: found them without flow_factors, expected both");
+    if (options.stress_factors) throw InputError("friction_factors: need flow_factors");
     return;
   }
   if (sigma_ == 0.0)
-    throw InputError("flow_factors: both walls are smooth, expected a roughness > 0");
+    throw InputError("flow_factors: need a roughness above 0: both walls are smooth");
   // A product, not a difference of squares, which a fused multiply-add leaves above 0 for equal
   // walls (hard case N5).
   share_difference_ =

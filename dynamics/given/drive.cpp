@@ -27,7 +27,7 @@ double turned(double speed, double time) {
 Drive::Drive(double mean, double start, std::vector<SpeedOrder> orders)
     : mean_(mean), start_(std::remainder(start, kFullTurn)), orders_(std::move(orders)) {
   if (mean_ == 0.0 && !orders_.empty())
-    throw InputError("drive: found orders at a mean speed of 0, expected a speed to refer to");
+    throw InputError("drive: orders need a mean speed other than 0");
   for (const SpeedOrder& one : orders_)
     if (!(one.order > 0.0))
       throw InputError(fmt::format("drive: found order {}, expected a positive one", one.order));

@@ -65,7 +65,7 @@ const Keys<ReliefSpec>& relief_keys() {
   static const Keys<ReliefSpec> keys(
       "relief", "valve that lets oil out of the chamber", [](auto& key, ReliefSpec& relief) {
         key.number("opening_bar", relief.opening, kPressureBar,
-                   "pressure difference at which it opens")
+                   "pressure over that outside at which it opens")
             .required();
         key.number("gradient_ml_s_bar", relief.gradient, Range::between(1e-9, 1e9),
                    "flow over pressure difference above it")

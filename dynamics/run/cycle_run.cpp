@@ -133,8 +133,7 @@ Checkpoint CycleRun::next() const {
 void CycleRun::settle(Checkpoint& point) const {
   if (const auto mounted = MountedMotion::of(*model_, span_.end)) {
     const double moved = mounted->predict(begin_, span_.end - span_.begin, point.state);
-    say(fmt::format("  on its mounts the engine starts the next cycle {:.3g} um further on",
-                    moved / kMicro));
+    say(fmt::format("  settle_to: engine shifted by {:.3g} um on its mounts", moved / kMicro));
   }
   point.state.time = span_.begin;
 }

@@ -48,10 +48,8 @@ void check_engine(const Config& root) {
   }
   if (!root.has("engine") && !root.has("body") && !root.has("rigid_body") && !root.has("shaft") &&
       !root.has("valve")) {
-    root.fail(
-        "body",
-        "found no body, expected [engine] with [piston], or [[body]], [[rigid_body]], [[valve]], "
-        "[[shaft]]");
+    root.fail("body",
+              "give [engine] with [piston], or a [[body]], [[rigid_body]], [[valve]] or [[shaft]]");
   }
 }
 

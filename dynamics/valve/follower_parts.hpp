@@ -111,7 +111,8 @@ void cam_rows(Keys<S>& key, CamLawSpec& law) {
   key.choice(
       "law", law.kind,
       {{"polynomial", Kind::kPolynomial}, {"table", Kind::kTable}, {"radius", Kind::kRadius}},
-      "lift of the valve over the angle of the cam, or a table of the cam's radius");
+      "lift of the valve over the angle of the cam, or a table of the cam's radius over its polar "
+      "angle");
   cam_law_rows(key, law, {"table", "radius"});
 }
 CamSpec make_cam(const CamLawSpec& spec);

@@ -58,7 +58,8 @@ const Keys<CoilSpringTable>& coil_spring_keys() {
             .excludes("stiffness_n_m", given);
         key.number("force_n", spring.force, Range::between(0.0, 1e9), "at the installed length");
         key.number("to_solid_mm", spring.to_solid, millimetres,
-                   "travel from there until all coils touch");
+                   "travel from there until all coils touch; in [valve] 1.2 mm more than the lift "
+                   "without it");
         key.integer("masses", spring.masses, Range::between(1.0, 200.0), "masses of the model");
         key.number("damping_ratio", spring.damping, ratio, "of its first surge");
         key.number("clash_stiffness_n_m", spring.clash_stiffness, Range::between(1.0, 1e15),
@@ -76,8 +77,10 @@ const Keys<ValveSpringSpec>& valve_spring_keys() {
       [](auto& key, ValveSpringSpec& spec) {
         key.where(spec.where);
         name_row(key, spec.name).required();
-        key.table("a", spec.a, point_keys(), "point of its seat").required();
-        key.table("b", spec.b, point_keys(), "point of the retainer").required();
+        key.table("a", spec.a, point_keys(), "point of its seat at the installed length")
+            .required();
+        key.table("b", spec.b, point_keys(), "point of the retainer at the installed length")
+            .required();
         key.part(spec.coil, coil_spring_keys());
       });
   return keys;

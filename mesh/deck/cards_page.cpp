@@ -43,11 +43,12 @@ void add_table(const char* title, const char* what, const std::vector<Listed>& l
 
 std::vector<std::string> cards_page() {
   std::vector<std::string> lines = {
-      "# Cards and keywords of decks", "",
-      "`clatter-mesh cards` writes this page from the tables of the readers. What is not in it is "
-      "refused by name, with file and line; `--ignore NAME` skips it. `clatter-mesh part.bdf "
-      "--check` lists all that one deck holds. [mesh/deck](../mesh/deck/README.md) has the choices "
-      "and limits."};
+      "# Cards and keywords of decks",
+      "",
+      "`clatter-mesh cards` writes this page from the tables of the readers. What is not in it is",
+      "refused by name, with file and line; `--ignore NAME` skips it.",
+      "`clatter-mesh part.bdf --check` lists all that one deck holds.",
+      "[mesh/deck](../mesh/deck/README.md) has the choices and limits."};
   add_table("Nastran: cards of bulk data", "card", nastran::listed_cards(), lines);
   add_table("Nastran: executive and case control", "command", nastran::listed_commands(), lines);
   add_table("Abaqus and CalculiX: keywords", "keyword", abaqus::listed_keywords(), lines);

@@ -120,9 +120,9 @@ void divide(const SegmentRule& rule, const std::string& origin, Piece& piece) {
 Piece window_by_angle(const RunClock& clock, const WindowRule& rule, const std::string& origin) {
   const Span& span = rule.span;
   if (!clock.has_crank())
-    throw InputError(
-        fmt::format("{}: window '{}': found no crank rotation, expected `domain = \"time\"`",
-                    origin, rule.name));
+    throw InputError(fmt::format(
+        "{}: window '{}': domain = \"angle\" needs a crank that turns: give domain = \"time\"",
+        origin, rule.name));
   const Span range = resampled_range(clock);
   constexpr double kSlack = 1e-6;  // [deg]
   double from = span.from, to = span.to, ftdc = 0.0;
@@ -224,8 +224,7 @@ Eigen::VectorXd taper_values(Taper taper, int64_t count) {
 
 Piece last_cycle(const RunClock& clock, const std::string& origin) {
   if (!clock.has_crank())
-    throw InputError(origin +
-                     ": output/crank_angle_deg: found no crank rotation, expected complete cycles");
+    throw InputError(origin + ": output/crank_angle_deg: a cycle needs a crank that turns");
   const int64_t n_t = clock.time.size();
   const double steps = kCycle / (clock.speed_deg_s() * clock.step_s);
   const int64_t count = std::llround(steps);
@@ -251,8 +250,9 @@ Piece window(const RunClock& clock, const WindowRule& rule, const std::string& o
   Piece piece{.name = rule.name, .step_s = clock.step_s, .taper = rule.taper};
   const Eigen::VectorXd& axis = span.in_seconds ? clock.time : clock.angle_deg;
   if (axis.size() == 0)
-    throw InputError(fmt::format(
-        "{}: window '{}': found no crank rotation, expected a span in seconds", origin, rule.name));
+    throw InputError(
+        fmt::format("{}: window '{}': degrees need a crank that turns: give a span in seconds",
+                    origin, rule.name));
   const double first = axis[0], last = axis[axis.size() - 1];
   const double slack = 1e-6 * (last - first);
   if (!span.in_seconds) piece.ftdc_deg = kCycle * std::floor((last + slack - span.to) / kCycle);

@@ -125,9 +125,9 @@ MeasurementSurface measurement_surface(MicrophoneSet set, const sound::Surface& 
   if (set == MicrophoneSet::kIso3744) {
     if (box.up < 0)
       throw InputError(fmt::format(
-          "microphones: found \"iso_3744\" {}, expected [ground] with a normal along an "
-          "axis: the measurement surface ends at a reflecting plane",
-          ground ? "above an inclined plane" : "in free space"));
+          "microphones: \"iso_3744\" needs [ground]{}: the measurement surface ends at a "
+          "reflecting plane",
+          ground ? " with a normal along an axis" : ""));
     return {set, box.area(), on_parallelepiped(box)};
   }
   if (box.up != 2 || !box.upward) box = box_around(acoustic, std::nullopt);

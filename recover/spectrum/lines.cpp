@@ -53,8 +53,7 @@ std::vector<ChosenLine> choose_lines(const LineRule& rule, const SpectrumBand& b
   const Eigen::VectorXd& frequency_hz = analysis.velocity.frequency_hz;
   if (frequency_hz.size() < 2) return {};
   if (!rule.orders.empty() && analysis.speed_hz == 0.0)
-    throw InputError(
-        "lines.orders: found orders for a run without a crank angle, expected frequencies_hz");
+    throw InputError("lines.orders need a run with a crank angle: give frequencies_hz");
   std::vector<double> requested_hz = rule.frequencies_hz;
   for (double order : rule.orders) requested_hz.push_back(order * analysis.speed_hz);
 

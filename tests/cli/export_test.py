@@ -256,8 +256,8 @@ class MatricesOfOthers(Exported):
     def test_what_does_not_fit_together_is_refused(self):
         self.export("part.mtx")
         files = 'K = "part.K.mtx"\nM = "part.M.mtx"\n'
-        self.assembly(["found neither a mesh nor dofs, expected one of the two"], files)
-        self.assembly(["found a mesh and dofs, expected one of the two"], files + 'dofs = "part.dofs.tsv"\n',
+        self.assembly(["needs a mesh or dofs, which name the rows"], files)
+        self.assembly(["a mesh and dofs exclude each other: both name the rows"], files + 'dofs = "part.dofs.tsv"\n',
                       ["beam.mesh.h5"])
         self.assembly(["part.K.mtx", "as in the mesh"], files, ["beam.mesh.h5"])
         self.assembly(["absent.tsv", "no such file"], files + 'dofs = "absent.tsv"\n')

@@ -267,9 +267,10 @@ TEST_F(PartMotion, OfPartsThatCannotHaveItIsRefused) {
          "body[0].drive: needs motion = \"rest\"");
   expect(body("truss.rom.h5", "centre_mm = [0, 0, 0]\n"),
          "body[0].centre_mm: needs motion = \"space\"");
-  expect(body("truss.rom.h5", space + "model = \"rigid\"\n"), "expected [[rigid_body]] instead");
+  expect(body("truss.rom.h5", space + "model = \"rigid\"\n"),
+         "model: model = \"rigid\" and motion = \"space\" exclude each other");
   expect(body("truss.rom.h5", space + "mode_limit_hz = 100\n"),
-         "body[0].mode_limit_hz: found with");
+         "body[0].mode_limit_hz: mode_limit_hz and motion");
   expect(body("truss.rom.h5", space + "quaternion = [1, 1, 0, 0]\n"),
          "body[0].quaternion: found length 1.41421, expected 1");
   expect(

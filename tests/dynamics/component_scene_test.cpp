@@ -276,9 +276,9 @@ TEST_F(Components, AreRefusedByTableKeyAndName) {
   expect(body + "[[bushings]]\n",
          "mechanism.run.toml:7: bushings: unknown key, did you mean bushing?");
   expect(body + "[small_end]\nexponent = 1\n", "small_end: needs [engine]");
-  expect("",
-         "body: found no body, expected [engine] with [piston], or [[body]], [[rigid_body]], "
-         "[[valve]], [[shaft]]");
+  expect(
+      "",
+      "body: give [engine] with [piston], or a [[body]], [[rigid_body]], [[valve]] or [[shaft]]");
   expect(body + "motion = \"plane\"\n",
          "mechanism.run.toml:7: rigid_body[0].motion: found \"plane\", expected one of: xy, yz");
   expect(body + body, "mechanism.run.toml:7: a second body named \"bar\"");
@@ -299,7 +299,7 @@ TEST_F(Components, AreRefusedByTableKeyAndName) {
   expect(body + "[[spring]]\n" + a + "b = {}\nlength_mm = 1\n" + stiff,
          "mechanism.run.toml:9: spring[0].b: is the same point as a");
   expect(body + "[[bushing]]\n" + a + "b = {}\nstiffness_n_m = 0\n",
-         "bushing[0].stiffness_n_m: found 0 and no damping");
+         "bushing[0].stiffness_n_m: give stiffness_n_m or damping_n_s_m above 0");
   expect(body + "[[load]]\nbody = \"bar\"\ncomponent = \"z\"\nvalue = 1\n",
          "load.component: found \"z\", expected one that \"bar\" follows");
   expect(body + "[[load]]\nbody = \"bar\"\nset = \"tip\"\ncomponent = \"x\"\nvalue = 1\n",

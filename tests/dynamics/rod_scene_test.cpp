@@ -211,11 +211,10 @@ TEST_F(RodModels, AreRefusedWithTheKeyThatIsWrong) {
   expect("model = \"elastic\"\nrom = \"bar.rom.h5\"\n", "rigid modes, expected the 6 of a rod");
   expect("model = \"elastic\"\nrom = \"rod.rom.h5\"\nmode_limit_hz = -1\n",
          "rod.mode_limit_hz: found -1");
-  expect(
-      "model = \"massless\"\n[small_end]\nfriction_coefficient = 0.1\ndiameter_mm = 40\n",
-      "small_end: found friction or an oil film with rod.model = \"massless\", expected neither");
+  expect("model = \"massless\"\n[small_end]\nfriction_coefficient = 0.1\ndiameter_mm = 40\n",
+         "small_end: friction or an oil film and rod.model = \"massless\" exclude each other");
   expect("model = \"massless\"\n[crank]\nspeed = \"free\"\npolar_kg_m2 = 1\n",
-         "rod.model: found \"massless\" with crank.speed = \"free\", expected a rod with mass");
+         "rod.model: model = \"massless\" and crank.speed = \"free\" exclude each other");
   EXPECT_EQ(refusal("[rod]\nmodel = \"massless\"\n"), "accepted");
 }
 

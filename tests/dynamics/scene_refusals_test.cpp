@@ -77,8 +77,9 @@ TEST_F(SceneRefusals, NameTheKeyOfAContradiction) {
          "changed.run.toml:4: contact.profile_relief_um: found 1 values, expected as many");
   expect("[contact]\nflow_factors = true\npeklenik = 2\n",
          "changed.run.toml:4: contact.peklenik: peklenik: no pressure flow factor for 2, expected");
-  expect("[contact]\nflow_factors = true\npiston_roughness_um = 0\nliner_roughness_um = 0\n",
-         "changed.run.toml:3: contact.flow_factors: both walls are smooth");
+  expect(
+      "[contact]\nflow_factors = true\npiston_roughness_um = 0\nliner_roughness_um = 0\n",
+      "changed.run.toml:3: contact.flow_factors: needs a roughness above 0: both walls are smooth");
   expect("[time]\nlargest_step_us = 1\nsmallest_step_us = 2\n",
          "changed.run.toml:4: time.smallest_step_us: found 2, expected less than largest_step_us");
   expect("[rod]\nlength_mm = 64\ncentre_mm = 0\ninertia_kg_m2 = 0.005\n",

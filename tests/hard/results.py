@@ -135,9 +135,10 @@ def margin_note(seen):
 def table(results, with_long):
     """docs/hard-results.md: what each case did in the run that wrote it. Machines are not named, nor times of day."""
     lines = ["# Hard cases: results", "",
-             f"Made by `make hard WRITE=1` from a run of every test that [{LIST.name}]({LIST.name}) names; do not edit. `make hard`",
-             "repeats the run and makes the page `build/hard/index.html` with all figures. \"Margin\" is how many times the figure nearest to its limit fits",
-             "that limit; a case that is refused has the message instead. Seconds are those of all tests of the case, several cases at once.",
+             f"Made by `make hard WRITE=1` from a run of every test that [{LIST.name}]({LIST.name}) names; do",
+             "not edit. `make hard` repeats the run and makes the page `build/hard/index.html` with all figures.",
+             "\"Margin\" is how many times the figure nearest to its limit fits that limit; a case that is refused",
+             "has the message instead. Seconds are those of all tests of the case, several cases at once.",
              "Tests with the label `long` ran as well." if with_long else "Tests with the label `long` were left out (`LONG=1`).", "",
              f"{summary(results)}.", "", "| case | what could go wrong | what must happen | what happened | margin | seconds |",
              "|---|---|---|---|---|---|"]

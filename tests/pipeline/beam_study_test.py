@@ -83,7 +83,7 @@ class BeamStudy(unittest.TestCase):
         self.assertEqual([one.changes[0].number() for one in found.switches], [0.0, 0.0, 0.0])
         # A rigid beam that is clamped has no coordinate that could move: its run is refused.
         self.assertIsNone(elastic.changes[1])
-        self.assertEqual(effects.advice(found, elastic), "keep, not all is known with it off")
+        self.assertEqual(effects.advice(found, elastic), "keep (some results cannot be computed without it)")
         self.assertLess(gravity.changes[1].number(), 0.0)  # along -z
         self.assertAlmostEqual(force.changes[1].number(), -found.base[1].number(), delta=1e-15)  # without it nothing moves
         self.assertTrue(effects.report(found)[1].startswith("gravity (off): fourth frequency +0 %, mean of the tip -"))

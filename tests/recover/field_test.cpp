@@ -267,7 +267,7 @@ TEST(FieldFile, LinesNeedAnAnalysisWithPhases) {
       "cycle = false\n[[window]]\nname = \"w\"\ncycles = 1.5\nsegment_deg = 360\n";
   test::expect_parts(
       test::refusal_of([&] { recover_file(run, averaged + "[lines]\norders = [12]\n"); }),
-      {"lines: found only windows averaged over segments"});
+      {"lines need a cycle or a window in one segment"});
   const H5File file = open_artefact(recover_file(run, averaged), kFieldSchema);
   EXPECT_FALSE(file.has("lines"));
   EXPECT_GT(file.get_int("analysis/w", "averages"), 1);

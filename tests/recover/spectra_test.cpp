@@ -140,7 +140,7 @@ TEST(Pieces, WhatTheRunDoesNotHoldIsRefused) {
                        window(RunClock{uneven.time, {}, uneven.step_s},
                               {"w", {0, 60, false}, Taper::kNone}, "run");
                      }),
-                     {"run: window 'w': found no crank rotation, expected a span in seconds"});
+                     {"run: window 'w': degrees need a crank that turns: give a span in seconds"});
 }
 
 TEST(Lines, FrequencyAboveWhatTheBasisHoldsIsRefused) {

@@ -127,7 +127,7 @@ class Command(unittest.TestCase):
                  "--at 3:x: found '3:x', expected numbers [Hz] or ranges low:high, joined by commas"),
                 (["-o", "x.msh", "--sensors"], "--sensors: found the format msh, expected .unv or .csv"),
                 (["-o", "x.csv", "--sensors", "--at", "3"], "--sensors: found --at, --linear or --skin, which are for the surface"),
-                (["-o", "x.csv", "--histories"], "--histories: found it without --sensors")):
+                (["-o", "x.csv", "--histories"], "--histories needs --sensors")):
             with self.subTest(message):
                 self.assertEqual(self.refused(*arguments), message)
 

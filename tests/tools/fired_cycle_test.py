@@ -70,8 +70,8 @@ class FiredCycleTable(unittest.TestCase):
         self.assertEqual((self.folder / "f.csv").read_text(), (SOURCE / "samples/truck_diesel/fired.csv").read_text())
 
     def test_contradictions_are_refused_in_one_line(self):
-        for arguments, words in ((["f.csv"], "found neither of --imep-bar and --heat-j, expected one"),
-                                 (["f.csv", "--imep-bar", 5, "--heat-j", 5], "found both of"),
+        for arguments, words in ((["f.csv"], "give --imep-bar or --heat-j"),
+                                 (["f.csv", "--imep-bar", 5, "--heat-j", 5], "--imep-bar and --heat-j exclude each other"),
                                  (["f.csv", "--heat-j", 5, "--premixed", 1.5], "--premixed: found 1.5, expected at least 0 and at most 1"),
                                  (["f.csv", "--heat-j", 5, "--open-deg", 340], "--blowdown-deg: found 50 after 340"),
                                  (["f.csv", "--heat-j", 5, "--closed-deg", 1], "--start-deg: found -4, expected it between -1,"),

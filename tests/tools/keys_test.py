@@ -47,16 +47,27 @@ class Schema(unittest.TestCase):
         self.assertEqual(found["properties"]["ends"], {"description": "of the travel", "type": "array", "items": {"type": "number", "minimum": -1.0, "maximum": 1.0},
                                                        "minItems": 2, "maxItems": 2})
         self.assertIs(found["additionalProperties"], False)
-        self.assertEqual(found["properties"]["seat"]["items"]["required"], ["name"])
+        self.assertEqual(found["properties"]["seat"]["items"], {"$ref": "#/definitions/seat"})
+        self.assertEqual(found["definitions"]["seat"]["required"], ["name"])
         self.assertIn({"not": {"allOf": [{"required": ["rate_n_m"]}, {"required": ["file"]}]}}, found["allOf"])
         self.assertIn({"if": {"required": ["file"]}, "then": {"properties": {"law": {"enum": ["table"]}}, "required": ["law"]}}, found["allOf"])
 
     def test_a_file_with_a_base_may_lack_everything_and_change_one_entry_of_a_list(self):
         found = schema.of_file({**SPRING, "keys": [*SPRING["keys"], rows.key("base", "path", "another file")]})
-        self.assertNotIn("required", found["properties"]["seat"]["anyOf"][0]["items"])
+        self.assertNotIn("required", found["definitions"]["seat"])
         self.assertEqual(found["properties"]["seat"]["anyOf"][1]["type"], "object")
         self.assertEqual(found["if"], {"not": {"required": ["base"]}})
-        self.assertEqual(found["then"]["properties"]["seat"]["items"]["required"], ["name"])
+        self.assertEqual(found["then"]["properties"]["seat"], {"type": "array", "items": {"$ref": "#/definitions/seat_complete"}})
+        self.assertEqual(found["definitions"]["seat_complete"], {"required": ["name"]})
+
+    def test_equal_tables_are_written_once_and_others_of_the_same_name_get_a_number(self):
+        def end(name, *keys):
+            return rows.below(name, "table", rows.table(name, "an end", [rows.below("seat", "table", rows.table("seat", "a seat", [*keys]))]))
+        wide, high = rows.key("wide", "flag", "it is"), rows.key("high", "flag", "it is")
+        found = schema.of_file(rows.table("x.toml", "ends", [end("a", wide), end("b", wide), end("c", high)]))
+        self.assertEqual(set(found["definitions"]), {"a", "b", "c", "seat", "seat_2"})
+        self.assertEqual([found["definitions"][name]["properties"]["seat"]["$ref"] for name in "abc"],
+                         ["#/definitions/seat", "#/definitions/seat", "#/definitions/seat_2"])
 
     def test_the_kind_of_a_file_is_the_end_of_its_name(self):
         for name, kind in (("slap.run.toml", "run"), ("a/field.toml", "field"), ("other.toml", ""), ("x.mesh.toml", "mesh")):
@@ -99,9 +110,11 @@ class Command(unittest.TestCase):
 
     def test_defaults_in_the_schema_are_what_the_program_says(self):
         found = json.loads(clatter("schema", "field", folder=SOURCE).stdout)
-        self.assertEqual(found["properties"]["frames"]["properties"]["from_deg"]["default"], -10)
-        self.assertEqual(found["properties"]["window"]["items"]["required"], ["name"])
-        self.assertIs(found["properties"]["window"]["items"]["additionalProperties"], False)
+        tables = found["definitions"]
+        self.assertEqual(found["properties"]["window"]["items"], {"$ref": "#/definitions/window"})
+        self.assertEqual(tables["frames"]["properties"]["from_deg"]["default"], -10)
+        self.assertEqual(tables["window"]["required"], ["name"])
+        self.assertIs(tables["window"]["additionalProperties"], False)
 
     def test_all_that_a_program_describes_has_a_meaning(self):
         for kind, table in files.read()[0].items():

@@ -87,7 +87,7 @@ class Levels(unittest.TestCase):
 
     def test_what_cannot_be_drawn_is_refused(self):
         for arguments, message in (
-                (["1200.field.h5"], "levels: found neither --sound nor --panel nor --sensor, expected at least one of them"),
+                (["1200.field.h5"], "levels: give --sound, --panel or --sensor"),
                 (["1200.field.h5", "--sound"], "levels: found 1 speeds with sound/power, expected at least two"),
                 (["1200.field.h5", "2400.field.h5", "--panel", "lid"], "1200.field.h5: analysis/cycle/panels: found exposed, skin, expected lid")):
             self.assertEqual(self.run_command("levels", *arguments, code=2), message)

@@ -41,9 +41,9 @@ class Numbers(StandIns):
             self.assertEqual(file["quantity/of the part/budget"][1], 0.0)
         coarse, fine = abs(8.0 * 0.4) / reference, abs(8.0 * 0.05) / reference
         self.assertIn(f"tolerance, value: {100 * coarse:.2g} % costs 5.2 s (0.4), 1.6 % costs 10 s (0.2, the base), "
-                      f"{100 * fine:.2g} % costs 40 s (0.05); below 2 % cell size rules; 126 s of other stages", said)
+                      f"{100 * fine:.2g} % costs 40 s (0.05); below 2 % cell size dominates; 126 s of other stages", said)
         self.assertIn("tolerance, of the part: no value changes it", said)
-        self.assertIn(f"\nvalue: {exact():.4g} N, total error {100 * abs(exact() / reference - 1.0):.2g} % for 136 s; cell size rules with 2 %\n", said)
+        self.assertIn(f"\nvalue: {exact():.4g} N, total error {100 * abs(exact() / reference - 1.0):.2g} % for 136 s; cell size dominates with 2 %\n", said)
         self.assertIn("sum / run 1.00", said)
         self.assertIn("value: the budget is closed, sum over run 1.00", said)
         self.assertNotIn("does not converge", said)
@@ -201,7 +201,7 @@ class Interaction(StandIns):
         self.assertEqual(markdown.few_effects(found, ["value"])[0], "| effect | switched | value | its share of the time | advice |")
         # Without a value of one quantity it is kept, without any it could not be run.
         found.switches[0].changes[1] = None
-        self.assertTrue(effects.report(found)[0].endswith("keep, not all is known with it off"), effects.report(found)[0])
+        self.assertTrue(effects.report(found)[0].endswith("keep (some results cannot be computed without it)"), effects.report(found)[0])
         found.switches[0].changes[0] = None
         self.assertTrue(effects.report(found)[0].endswith("cannot be switched off here: see what its stage said"))
 

@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tables of docs/validation.md that commands write: each is between <!-- name --> and <!-- end -->."""
 import pathlib
+import sys
 import tempfile
 
 from stage_run import SOURCE
+
+sys.path.insert(0, str(SOURCE / "tools"))
+from clatter_tools.wrapped_lines import wrapped  # noqa: E402
 
 PAGE = SOURCE / "docs/validation.md"
 
@@ -18,7 +22,8 @@ def put(name, text):
     """Replaces the table of that name by `text`."""
     before, rest = PAGE.read_text().split(f"<!-- {name} -->\n", 1)
     after = rest.split("<!-- end -->", 1)[1]
-    PAGE.write_text(f"{before}<!-- {name} -->\n{text}\n<!-- end -->{after}")
+    lines = "\n".join(wrapped(text.split("\n")))
+    PAGE.write_text(f"{before}<!-- {name} -->\n{lines}\n<!-- end -->{after}")
 
 
 def finish(name, text, arguments):

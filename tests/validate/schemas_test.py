@@ -16,7 +16,9 @@ TAPLO = next((str(path) for path in (SOURCE / "build/npm/node_modules/.bin/taplo
 
 # A sample and a change that a schema refuses, with what the message has.
 WRONG = [("samples/beam/beam.fe.toml", "rho = ", "rhoo = ", "rhoo"), ("samples/beam/beam.mesh.toml", 'kind = "box"', 'kind = "bax"', "bax"),
-         ("samples/beam/beam.rom.toml", "boundary = ", "bound = ", "bound"), ("samples/truck_diesel/field.toml", "\n[", "\ncycle = 3\n[", "cycle")]
+         ("samples/beam/beam.rom.toml", "boundary = ", "bound = ", "bound"), ("samples/truck_diesel/field.toml", "\n[", "\ncycle = 3\n[", "cycle"),
+         ("samples/timing_drive/drive.run.toml", "contact = { bed_n_m3", "contact = { bedd_n_m3", "bedd_n_m3"),
+         ("samples/timing_drive/drive.run.toml", "radius_mm = 280.0, from_deg = 194.25", "radius_mm = 280.0", "from_deg")]
 
 
 def messages_of(path, schema_path):

@@ -113,7 +113,7 @@ def write_sensors(file, path, options, name, form):
 def write_export(options):
     """`clatter export`: writes the files; prints what they contain."""
     if options.histories and options.kind != "sensors":
-        raise BadArtefact("--histories: found it without --sensors")
+        raise BadArtefact("--histories needs --sensors")
     path, begin = pathlib.Path(options.output), time.monotonic()
     name, form = formats.of(path, options.format)
     with open_artefact(options.file, "field") as file:

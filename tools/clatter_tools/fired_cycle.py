@@ -109,8 +109,10 @@ def add_arguments(command):
 def cycle_of(options):
     """The FiredCycle of the options; BadArtefact where they contradict each other."""
     motored_cycle.check(options, OPTIONS)
-    if (options.imep_bar is None) == (options.heat_j is None):
-        raise BadArtefact(f"found {'neither' if options.heat_j is None else 'both'} of --imep-bar and --heat-j, expected one")
+    if options.imep_bar is None and options.heat_j is None:
+        raise BadArtefact("give --imep-bar or --heat-j")
+    if options.imep_bar is not None and options.heat_j is not None:
+        raise BadArtefact("--imep-bar and --heat-j exclude each other: each gives the heat")
     if options.open_deg + options.blowdown_deg > 360.0:
         raise BadArtefact(f"--blowdown-deg: found {options.blowdown_deg:g} after {options.open_deg:g}, expected an end at 360 deg at most")
     if options.start_deg >= options.open_deg or options.start_deg <= -options.closed_deg:

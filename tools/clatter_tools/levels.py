@@ -88,7 +88,7 @@ def curves(options):
     """A curve of everything that the options name, in their order."""
     names = (["sound/power"] if options.sound else []) + [f"panels/{one}" for one in options.panel] + [f"sensors/{one}" for one in options.sensor]
     if not names:
-        raise BadArtefact("levels: found neither --sound nor --panel nor --sensor, expected at least one of them")
+        raise BadArtefact("levels: give --sound, --panel or --sensor")
     found = {name: Curve(name, {}) for name in names}
     for path in options.files:
         for name, speed, levels in read(path, names, options.where):

@@ -107,7 +107,7 @@ def scene_text(keys, values, title=None):
 def read_keys(arguments):
     """(keys, the values of each scene) of all key=values: every combination."""
     if not arguments:
-        raise BadArtefact("found neither key=values nor --parameters, expected one of them")
+        raise BadArtefact("give key=values or --parameters")
     parsed = [parse(argument) for argument in arguments]
     keys = [key for key, _ in parsed]
     for key in keys:
@@ -145,7 +145,7 @@ def write_parameters(base, folder, file, keys, field):
     """The base and each value of each parameter of a file; `keys` have one value each, in all scenes. Returns the number of scenes."""
     names, combinations = read_keys(keys) if keys else ([], [()])
     if len(combinations) > 1:
-        raise BadArtefact(f"{', '.join(keys)}: found several values beside --parameters, expected one of each key")
+        raise BadArtefact(f"{', '.join(keys)}: several values and --parameters exclude each other: give one of each key")
     scenes = parameters.scenes(parameters.read(file))
     texts = {one.name: scene_text([*one.keys, *names], [*one.keys.values(), *combinations[0]], one.title) for one in scenes}
     write_scenes(base, folder, texts, field, {one.name: one.field for one in scenes if one.field})

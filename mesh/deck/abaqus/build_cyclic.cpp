@@ -102,7 +102,7 @@ void build_cyclic(Model& model) {
   model.refusals.attempt([&] {
     if (ring == nullptr || tie == nullptr) {
       model.source.fail((tie != nullptr ? tie : ring)->origin(),
-                        "expected both *TIE, CYCLIC SYMMETRY and *CYCLIC SYMMETRY MODEL");
+                        "*TIE, CYCLIC SYMMETRY and *CYCLIC SYMMETRY MODEL need each other");
     }
     if (model.refusals.any()) throw FollowUp();
     unfold(model.deck, sector);

@@ -53,8 +53,8 @@ void add_rigid(Model& model, const RawRigid& raw) {
       rigid.dependents.push_back(node_index);
     } else if (!model.node_map.is_point(rigid.reference)) {
       model.source.fail(raw.origin,
-                        fmt::format("{}: found some directions of a displacement system (CD) and "
-                                    "a node of solids as reference, expected one of both",
+                        fmt::format("{}: some directions of a displacement system (CD) and "
+                                    "a node of solids as reference exclude each other",
                                     raw.name));
     } else {
       add_rigid_rows(model, raw, rigid.reference, node_index);

@@ -103,8 +103,7 @@ class Steps {
               moved.where, grid, step.name));
         if ((moved.dofs & given[index]) != 0)
           throw InputError(fmt::format(
-              "{}: SPCD: grid {}: SPC gives it a displacement as well, expected one of them: leave "
-              "D of SPC blank",
+              "{}: SPCD: grid {}: SPCD and D of SPC exclude each other: leave D of SPC blank",
               moved.where, grid));
       }
   }

@@ -149,7 +149,7 @@ bool Card::is_word(size_t i) const {
 // field.
 size_t Card::leave_out(size_t i, const char* what, IdList& list) const {
   const IdRange whole = list.back();
-  if (whole.step != 1) fail(i, "found EXCEPT after BY, expected one of them");
+  if (whole.step != 1) fail(i, "BY and EXCEPT exclude each other");
   for (; i < size(); ++i) {
     if (blank(i)) continue;
     if (!is_integer(i)) break;

@@ -172,7 +172,7 @@ TEST(Config, EntriesOfTheBaseAreChangedByName) {
   EXPECT_EQ(message_of([&] { with("drive.crank = 1\n"); }),
             top +
                 ":2: drive.crank: found a value, expected the keys to change of the entry of this "
-                "name, or [[tables]] in place of those of the base");
+                "name, or [[tables]] instead of those of the base");
   EXPECT_NE(message_of([&] {
               with("[drive.pump]\nspeed = -1\n").tables("drive")[1].number("speed", Range{0, 1});
             }).find("top.toml:3: drive[1].speed"),

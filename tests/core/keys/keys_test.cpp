@@ -200,6 +200,23 @@ TEST(Keys, TheReferenceSaysWhatTheReaderDoes) {
   EXPECT_THAT(json, HasSubstr(R"("default": "40")"));
 }
 
+struct Gearbox {
+  Gearbox() { thick.viscosity = 0.2; }
+  Oil oil, thick;
+};
+
+TEST(Keys, TheReferenceHasTheDefaultsOfTheMemberWhereItsStructHasOthers) {
+  static const Keys<Gearbox> keys("gearbox", "two oils", [](auto& key, Gearbox& box) {
+    key.table("oil", box.oil, oil_keys());
+    key.table("thick", box.thick, oil_keys());
+  });
+  const Gearbox box = keys.read(Config::parse("[thick]\ntemperature_c = 90\n", "a.toml"));
+  EXPECT_DOUBLE_EQ(box.thick.viscosity, 0.2);
+  EXPECT_THAT(text_of(keys.table(), "thick.viscosity_mpa_s"), HasSubstr("default 200\n"));
+  EXPECT_THAT(text_of(keys.table(), "oil.viscosity_mpa_s"), HasSubstr("default 10\n"));
+  EXPECT_EQ(keys.table().find("oil")->table, &oil_keys().table());  // only others are copied
+}
+
 TEST(Keys, TheUnitIsTheLongestEndOfTheName) {
   EXPECT_EQ(unit_of("spring_rate_n_m").shown, "N/m");
   EXPECT_EQ(unit_of("damping_n_s_m").shown, "N s/m");

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dynamics/chain/chain_spec.hpp"
 #include "tests/dynamics/mechanisms.hpp"
 
 namespace clatter::dynamics {
@@ -99,6 +100,13 @@ TEST(LinkJoints, WorkOnTheLinksIsWhatIsStoredAndLost) {
   EXPECT_GT(lost, 0.0);
   // The stored energy's third derivative over h^2.
   EXPECT_NEAR(work, -storing - lost, 1e-6 * (std::abs(work) + lost));
+}
+
+// Joints of a scene that says nothing of damping have none, whatever the law's own default is.
+TEST(LinkJoints, OfASceneHaveOnlyTheDampingThatItGives) {
+  const keys::Table& joint = *chain_table().find("joint")->table;
+  EXPECT_EQ(ChainSpec().joint.damping, 0.0);
+  EXPECT_EQ(joint.find("damping_n_s_m")->standard, "0");
 }
 
 TEST(LinkJoints, OracleOfAFreeRing) {

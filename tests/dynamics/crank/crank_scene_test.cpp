@@ -192,7 +192,8 @@ TEST_F(CrankScenes, AreRefusedWithTheKeyThatIsWrong) {
   const std::string plain = std::string("model = \"film\"\n") + kPlain;
   EXPECT_EQ(refusal(in_bearings(plain)), "accepted");
   EXPECT_EQ(refusal(free_crank(1.0)), "accepted");
-  expect("[crank]\npolar_kg_m2 = 40\n", "crank.bearing: found none, and the speed is prescribed");
+  expect("[crank]\npolar_kg_m2 = 40\n",
+         "crank.bearing: give [[crank.bearing]] or speed = \"free\"");
   expect("[crank]\nspeed = \"free\"\n", "crank.polar_kg_m2: is missing, speed = \"free\" needs it");
   expect(free_crank(-1.0), "crank.polar_kg_m2: found -1, expected");
   expect(in_bearings("stiffness_n_m = -1\n"), "crank.bearing[0].stiffness_n_m: found -1, expected");

@@ -152,7 +152,7 @@ TEST(FlowFactors, FrictionFactorsOfSwappedWallsBalance) {
   test::expect_parts(test::refusal_of([] {
                        RoughFilm({1e-6, 0.0, 1.0, false, true});
                      }),
-                     {"friction_factors", "without flow_factors"});
+                     {"friction_factors: need flow_factors"});
 }
 
 TEST(FlowFactors, MeanGapStaysPositiveAndIsTheGaussianMean) {
@@ -247,7 +247,7 @@ TEST(RoughFilm, SmoothWallsLeaveTheGapAlone) {
   test::expect_parts(test::refusal_of([&] {
                        RoughFilm({0.0, 0.0, 1.0, true});
                      }),
-                     {"flow_factors: both walls are smooth, expected a roughness > 0"});
+                     {"flow_factors: need a roughness above 0: both walls are smooth"});
 }
 
 }  // namespace

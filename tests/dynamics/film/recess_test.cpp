@@ -268,8 +268,8 @@ TEST(Recess, WhatMakesNoSenseIsRefused) {
   };
   const std::string name = "piston_liner: recess 1: ";
   EXPECT_EQ(refused(groove(0.1, 0.2)), name +
-                                           "found no cell's centre in it, expected at least one: "
-                                           "it is smaller than a cell, or beside the pads");
+                                           "the recess covers no cell: it is smaller than a cell "
+                                           "or outside the pads");
   EXPECT_EQ(refused(groove(0.0, 0.01, 1e5, 0.5)),
             name + "found a fill of 0.5 under pressure, expected 1");
   EXPECT_EQ(refused(groove(0.0, 0.01, -1.0)), name + "found -1 Pa, expected >= 0");

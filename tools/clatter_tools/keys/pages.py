@@ -4,6 +4,7 @@ import json
 import pathlib
 
 from . import words
+from ..wrapped_lines import wrapped
 
 # page: its title, and the kinds of files on it.
 PAGES = {
@@ -52,11 +53,11 @@ def sentence(text):
 
 def page(title, tables):
     """The text of a page."""
-    lines = [f"# {title}", "", "Written by `make keys-pages` from the tables that the programs read by; `clatter keys` prints and searches them.",
+    lines = [f"# {title}", "", "Written by `make keys-pages` from the tables that the programs read by; `clatter keys` prints and searches them. "
              "The unit is in brackets after the meaning. Paths are relative to the file.", ""]
     for table in tables:
         lines += ([f"# `{table['name']}`", ""] if len(tables) > 1 else []) + [sentence(table["meaning"]), "", *section(table)]
-    return "\n".join(lines).rstrip() + "\n"
+    return "\n".join(wrapped(lines)).rstrip() + "\n"
 
 
 def write(tables, folder):

@@ -28,11 +28,11 @@ def write_study(options):
     if jobs < 1:
         raise BadArtefact(f"-j: found {jobs}, expected a number from 1")
     if options.effects and options.within is not None:
-        raise BadArtefact("--within: found it beside --effects, expected one of them")
+        raise BadArtefact("--within and --effects exclude each other: settings are proposed for the scene as it is")
     if options.seconds != float("inf") and not (options.within is not None and options.seconds > 0.0):
         raise BadArtefact(f"--seconds: found {options.seconds:g}, expected a positive number, and --within")
     if options.at and options.within is None:
-        raise BadArtefact(f"--at: found {options.at[0]} without --within, expected both")
+        raise BadArtefact(f"--at {options.at[0]} needs --within")
     if options.within is not None or options.at:
         wanted = plan.read(options.study)
         request = proof.requested(wanted, options.within)

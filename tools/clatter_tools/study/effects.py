@@ -162,7 +162,7 @@ def advice(effects, one):
         return f"cannot be switched {one.to} here: see what its stage said"
     matters = any(effects.scaled(k, change.size()) > effects.small(k) for k, change in enumerate(one.changes) if change is not None)
     if missing:
-        return f"{'keep' if one.to == 'off' else 'leave off'}, not all is known with it {one.to}"
+        return f"{'keep' if one.to == 'off' else 'leave off'} (some results cannot be computed {'without' if one.to == 'off' else 'with'} it)"
     if one.to == "on":
         return "switch on" if matters else "leave off"
     if matters:

@@ -50,7 +50,7 @@ def ruler(study, quantity, number):
 
 
 def sentence(study, quantity, number):
-    """"tolerance: 0.5 % costs 14 s, 0.05 % costs 160 s; below 0.2 % the cell size rules"."""
+    """"tolerance: 0.5 % costs 14 s, 0.05 % costs 160 s; below 0.2 % the cell size dominates"."""
     setting, own = study.plan.settings[number], study.plan.quantities[quantity]
     found = points(study, quantity, number)
     where = f"{setting.name}, {own.name}"
@@ -64,8 +64,8 @@ def sentence(study, quantity, number):
     end = ""
     if other and other[0] > found[-1][2]:
         name = study.plan.settings[other[1]].name
-        end = f"; below {error_text(study, quantity, other[0])} {name} rules" if other[0] < found[0][2] else \
-            f"; {name} rules throughout with {error_text(study, quantity, other[0])}"
+        end = f"; below {error_text(study, quantity, other[0])} {name} dominates" if other[0] < found[0][2] else \
+            f"; {name} dominates throughout with {error_text(study, quantity, other[0])}"
     others = study.cost(BASE, quantity) - study.cost_of_setting(BASE, quantity, number)
     return f"{where}: {', '.join(parts)}{end}; {seconds_text(others)} of other stages"
 
@@ -81,12 +81,12 @@ def front(study, quantity):
 
 
 def headline(study, quantity):
-    """"sound power: 87.1 dB(A), total error 0.19 dB(A) for 156 s; film cells along rules with 0.19 dB(A)"."""
+    """"sound power: 87.1 dB(A), total error 0.19 dB(A) for 156 s; film cells along dominates with 0.19 dB(A)"."""
     own, value = study.plan.quantities[quantity], study.values[quantity][BASE]
     known = f"{f'{value.number():.4g} {own.unit}'.rstrip()}, " if value.is_number else ""
     parts = [(study.scaled(quantity, part.size()), study.plan.settings[number].name) for number, part in study.budgets[quantity].parts]
     error, name = max(parts, default=(0.0, ""))
-    ruled = f"; {name} rules with {error_text(study, quantity, error)}" if error > NOTHING * study.size(quantity) else ""
+    ruled = f"; {name} dominates with {error_text(study, quantity, error)}" if error > NOTHING * study.size(quantity) else ""
     return f"{own.name}: {known}total error {error_text(study, quantity, study.error(quantity, BASE))} for {seconds_text(study.cost(BASE, quantity))}{ruled}"
 
 

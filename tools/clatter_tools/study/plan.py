@@ -124,7 +124,7 @@ def effect(where, entry):
     """A table [[effect]]."""
     keys = keys_of(where, entry)
     if "off" not in entry and "on" not in entry:
-        raise BadArtefact(f"{where}: found neither off nor on, expected the value that switches the effect off, on, or both")
+        raise BadArtefact(f"{where}: give off, on or both: the value that switches the effect")
     return Effect(entry["name"], keys, *(switch_values(f"{where}.{to}", entry.get(to), len(keys)) for to in ("off", "on")))
 
 

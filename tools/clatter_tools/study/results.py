@@ -47,7 +47,7 @@ def fill(study, path):
             fill_quantity(study, quantity, own, put)
         numbers, settings = range(len(plan.quantities)), range(len(plan.settings))
         put("said/quantity", [own.name for own in plan.quantities], "1", "quantities, a row of the texts of this group each")
-        put("said/headline", findings.headlines(study), "1", "value, error and seconds of the base, what rules")
+        put("said/headline", findings.headlines(study), "1", "value, error and seconds of the base, what dominates")
         put("said/verdict", [findings.verdict(study, k) for k in numbers], "1", "whether the budget is closed")
         put("said/sentences", ["\n".join(findings.sentence(study, k, number) for number in settings) for k in numbers], "1",
             "what an error costs, a line for each setting")
