@@ -67,28 +67,4 @@ ReducedMatrices project(const PartitionedModel& part, const StaticReduction& sta
   return out;
 }
 
-Eigen::VectorXd project_load(const Eigen::VectorXd& load, const DofPartition& partition,
-                             const ReducedBasis& basis) {
-  const MatrixXd interior = load(partition.interior), boundary = load(partition.boundary);
-  return basis.project(interior, boundary);
-}
-
-std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, Index protected_count,
-                                     double tolerance) {
-  const Eigen::Index r = M_rr.rows();
-  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(r, r);  // rows of the kept columns' Cholesky factor
-  std::vector<int> kept;
-  for (Eigen::Index j = 0; j < r; ++j) {
-    const auto rank = static_cast<Eigen::Index>(kept.size());
-    Eigen::VectorXd row = M_rr.col(j)(kept);
-    L.topLeftCorner(rank, rank).triangularView<Eigen::Lower>().solveInPlace(row);
-    const double left = M_rr(j, j) - row.squaredNorm();
-    if (j >= protected_count && left <= tolerance * M_rr(j, j)) continue;
-    L.row(rank).head(rank) = row.transpose();
-    L(rank, rank) = std::sqrt(std::max(left, 1e-300));
-    kept.push_back(static_cast<int>(j));
-  }
-  return kept;
-}
-
 }  // namespace clatter::condense

@@ -3,7 +3,6 @@
 // A reduction basis and the projection of the model's matrices on it.
 #include <Eigen/Core>
 #include <memory>
-#include <vector>
 
 #include "condense/basis/dof_partition.hpp"
 #include "condense/basis/static_reduction.hpp"
@@ -50,16 +49,5 @@ struct ReducedMatrices {
 /// and X are orthogonal in K.
 ReducedMatrices project(const PartitionedModel& part, const StaticReduction& statics,
                         const ReducedBasis& basis);
-
-/// V^T f for a load f on all n DoFs of the model.
-Eigen::VectorXd project_load(const Eigen::VectorXd& load, const DofPartition& partition,
-                             const ReducedBasis& basis);
-
-/// Columns that do not depend on those before them: column j is kept when its remainder after
-/// projection on the kept ones exceeds `tolerance` of its own M-norm squared (hard case B3).
-/// The first `protected_count` columns are always kept. Ascending indices.
-/// @param M_rr r x r, the columns' Gram matrix in the mass inner product.
-std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, Eigen::Index protected_count,
-                                     double tolerance = 1e-12);
 
 }  // namespace clatter::condense

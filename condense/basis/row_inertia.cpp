@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "condense/basis/frame_inertia.hpp"
+#include "condense/basis/nodal_mass.hpp"
 
 namespace clatter::condense {
 namespace {

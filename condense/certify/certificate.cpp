@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "condense/basis/frame_inertia.hpp"
 #include "core/base/error.hpp"
 #include "core/dense/solve.hpp"
 #include "core/dense/symmetric_eigen.hpp"
@@ -76,6 +75,32 @@ void certify_modes(rom::ReducedModel& reduced, const CraigBampton& source) {
   out.count_limit_hz = sparse::hz_of_value(interior.proof.limit);
   out.cutoff_hz = interior.cutoff_hz;
   out.accurate_to_hz = interior.accurate_to_hz;
+}
+
+double difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
+  return (found - expected).norm() / expected.norm();
+}
+
+/// Largest relative deviation from the values that follow from the rigid motions r and M_rr: sum_k
+/// product_kk = M_rr; for a body whose six motions are free first_k = M_rr r_k, moment_lk -
+/// moment_kl = M_rr r_(3+j), and place against the mass properties.
+double inertia_error(const rom::ReducedModel& reduced, bool free_body) {
+  const rom::InertiaInvariants& found = reduced.inertia;
+  double error = difference(found.product[0] + found.product[4] + found.product[8], reduced.M_rr);
+  if (!free_body) return error;
+  const Eigen::MatrixXd momentum = reduced.M_rr * reduced.rigid;
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t l = (k + 1) % 3, j = (k + 2) % 3;  // a rotation about j moves k towards l
+    error = std::max(error, difference(found.first[k], momentum.col(static_cast<Eigen::Index>(k))));
+    error = std::max(error, difference(found.moment[3 * k + l] - found.moment[3 * l + k],
+                                       momentum.col(static_cast<Eigen::Index>(3 + j))));
+  }
+  // Of the mass matrix: a lumped one has more inertia than the cells.
+  const Eigen::Matrix3d about_origin =
+      reduced.rigid.rightCols(3).transpose() * momentum.rightCols(3);
+  const Eigen::Matrix3d place =
+      0.5 * about_origin.trace() * Eigen::Matrix3d::Identity() - about_origin;
+  return std::max(error, difference(found.place, place));
 }
 
 }  // namespace
