@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "condense/basis/cutoff_search.hpp"
-#include "condense/basis/frame_inertia.hpp"
 #include "condense/basis/inertia_force.hpp"
 #include "condense/certify/certificate.hpp"
 #include "condense/rows/recovery_rows.hpp"
@@ -45,7 +44,7 @@ std::map<std::string, Eigen::VectorXd> reduced_loads(const fe::FeModel& model,
 
 rom::ReducedModel condense(const fe::FeModel& model, const CondenseOptions& options,
                            StepClock& clock) {
-  const PartitionedModel part = partition_model(model, options.boundary);
+  const LocalPart part(model, options.boundary, options.order);
   clock.lap("partition");
   return condense(part, options, clock);
 }
@@ -55,7 +54,7 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
   const fe::FeModel& model = part.full;
   report_repeated(part.dofs);
   SkinRecovery recovery(part, options.skin, options.rows);
-  StaticPart statics = static_part(part, recovery.unknowns(), clock, options.order);
+  StaticPart statics = static_part(part, recovery.unknowns(), clock);
   SearchedBasis found = options.modes.accurate_to_hz > 0.0
                             ? search_cutoff(part, statics, options.modes, clock)
                             : SearchedBasis{craig_bampton(part, statics, options.modes, clock), {}};
@@ -64,20 +63,16 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
 
   std::map<std::string, Eigen::VectorXd> loads = reduced_loads(model, part.dofs, source.basis);
   RowMatrix& static_rows = statics.reduction.rows;
-  Eigen::MatrixXd gathered;
-  if (part.shared) {
-    gathered = source.basis.shapes;
-    recovery.gather(part, static_rows, gathered);
-  }
-  const Eigen::MatrixXd& shapes = part.shared ? gathered : source.basis.shapes;
-  rom::Skin skin = recovery.recover(static_rows, shapes);
-  RecoveredSets rows = recovery.recover_sets(static_rows, shapes);
+  RowMatrix shape_rows = source.basis.shapes(recovery.unknowns(), Eigen::all);
+  recovery.gather(part, static_rows, shape_rows);
+  rom::Skin skin = recovery.recover(static_rows, shape_rows);
+  RecoveredSets rows = recovery.recover_sets(static_rows, shape_rows);
   rows.sets.insert(part.dofs.sets.begin(), part.dofs.sets.end());
   rows.grids.insert(part.dofs.grids.begin(), part.dofs.grids.end());
   clock.lap("loads and skin rows");
   rom::InertiaInvariants inertia;
   if (options.inertia_invariants) {
-    inertia = frame_inertia(part, source.basis);
+    inertia = part.inertia(source.basis);
     clock.lap("inertia invariants");
   }
   Eigen::MatrixXd of_frame;

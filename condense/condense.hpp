@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From an assembled model to a reduced one.
-#include "condense/basis/craig_bampton.hpp"
+#include "condense/basis/local_part.hpp"
 #include "condense/condense_options.hpp"
 #include "condense/describe.hpp"
 #include "core/base/stopwatch.hpp"

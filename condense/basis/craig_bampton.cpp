@@ -18,7 +18,7 @@ CraigBampton craig_bampton(const PartitionedModel& part, const StaticPart& stati
   out.rigid_error = statics.reduction.rigid_error;
   out.interior = interior_modes(part, factor, request, clock);
   out.fixed_interface_hz = out.interior.hz;
-  out.basis = ReducedBasis(statics.factor_ii, part.K.ib, part.team());
+  out.basis = ReducedBasis(part, statics.factor_ii);
   out.basis.shapes.swap(out.interior.vectors);
   out.interior.vectors.resize(0, 0);
   static_cast<ReducedMatrices&>(out) = project(part, statics.reduction, out.basis);

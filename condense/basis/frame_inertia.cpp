@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "condense/basis/nodal_mass.hpp"
-#include "condense/basis/row_inertia.hpp"
 #include "core/sparse/dense_product.hpp"
 #include "core/sparse/symmetric_product.hpp"
 
@@ -42,7 +41,6 @@ class NodalColumns {
 }  // namespace
 
 rom::InertiaInvariants frame_inertia(const PartitionedModel& part, const ReducedBasis& basis) {
-  if (part.shared) return frame_inertia_of_rows(part, basis);
   constexpr Index kBlock = 256;
   const SparseMatrix m = nodal_mass(part.full);
   const sparse::SymmetricProduct mass(m);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The shapes of the interior with the boundary held.
-#include "condense/basis/dof_partition.hpp"
 #include "condense/basis/mode_request.hpp"
+#include "condense/basis/partitioned_model.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/sparse/eigen/eigen_solver.hpp"
 

@@ -12,14 +12,14 @@ namespace clatter::condense {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-ReducedBasis::ReducedBasis(std::shared_ptr<const sparse::Factor> factor_ii, SparseMatrix K_ib,
-                           const sparse::RowTeam& team)
-    : factor_(std::move(factor_ii)), K_ib_(std::move(K_ib)), team_(&team) {
-  shapes.resize(K_ib_.rows(), 0);
+ReducedBasis::ReducedBasis(const PartitionedModel& part,
+                           std::shared_ptr<const sparse::Factor> factor_ii)
+    : part_(&part), factor_(std::move(factor_ii)) {
+  shapes.resize(part.K.ib.rows(), 0);
 }
 
 MatrixXd ReducedBasis::interior(const Eigen::Ref<const MatrixXd>& q) const {
-  const MatrixXd load = K_ib_ * q.topRows(boundary());
+  const MatrixXd load = part_->K.ib * q.topRows(boundary());
   MatrixXd u = -factor_->solve(load);
   sparse::add_product(1.0, shapes, q.bottomRows(shapes.cols()), u);
   return u;
@@ -34,15 +34,14 @@ MatrixXd ReducedBasis::project(const Eigen::Ref<const MatrixXd>& f_i,
                                const Eigen::Ref<const MatrixXd>& f_b) const {
   MatrixXd out(size(), f_i.cols());
   out.topRows(boundary()) = at_boundary(f_i, f_b);
-  out.bottomRows(shapes.cols()) = team_->sum(sparse::transposed_product(shapes, f_i));
+  out.bottomRows(shapes.cols()) = part_->team().sum(sparse::transposed_product(shapes, f_i));
   return out;
 }
 
 ReducedMatrices project(const PartitionedModel& part, const StaticReduction& statics,
                         const ReducedBasis& basis) {
   constexpr Index kBlock = 64;
-  const auto interior = part.interior();
-  const auto stiffness = interior->stiffness({}), mass = interior->mass({});
+  const auto stiffness = part.interior().stiffness({}), mass = part.interior().mass({});
   const sparse::RowTeam& team = part.team();
   const SparseMatrix M_bi = part.M.ib.transpose();
   const Index n_b = basis.boundary(), r = basis.size(), k = r - n_b;

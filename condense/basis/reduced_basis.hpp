@@ -4,10 +4,9 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "condense/basis/dof_partition.hpp"
+#include "condense/basis/partitioned_model.hpp"
 #include "condense/basis/static_reduction.hpp"
 #include "core/sparse/factor/factor.hpp"
-#include "core/sparse/row_team.hpp"
 
 namespace clatter::condense {
 
@@ -17,13 +16,12 @@ namespace clatter::condense {
 class ReducedBasis {
  public:
   ReducedBasis() = default;
-  /// @param K_ib n_i x n_b. @param team shares the rows of the interior.
-  ReducedBasis(std::shared_ptr<const sparse::Factor> factor_ii, SparseMatrix K_ib,
-               const sparse::RowTeam& team = sparse::one_process());
+  /// @param part must outlive this.
+  ReducedBasis(const PartitionedModel& part, std::shared_ptr<const sparse::Factor> factor_ii);
 
   Eigen::MatrixXd shapes;  // X, n_i x k
 
-  Eigen::Index boundary() const { return K_ib_.cols(); }
+  Eigen::Index boundary() const { return part_->K.ib.cols(); }
   Eigen::Index size() const { return boundary() + shapes.cols(); }
   /// Interior rows of V q; q is r x m.
   Eigen::MatrixXd interior(const Eigen::Ref<const Eigen::MatrixXd>& q) const;
@@ -35,9 +33,8 @@ class ReducedBasis {
                           const Eigen::Ref<const Eigen::MatrixXd>& f_b) const;
 
  private:
+  const PartitionedModel* part_ = nullptr;
   std::shared_ptr<const sparse::Factor> factor_;
-  SparseMatrix K_ib_;
-  const sparse::RowTeam* team_ = &sparse::one_process();
 };
 
 /// The matrices on the basis, eq. (14) of the paper.

@@ -2,14 +2,11 @@
 #pragma once
 // The mass of the static shapes of the interior, without storing the shapes.
 #include <Eigen/Core>
-#include <memory>
 #include <vector>
 
-#include "condense/basis/dof_partition.hpp"
+#include "condense/basis/partitioned_model.hpp"
 #include "condense/basis/static_sweep.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/rom/elimination_order.hpp"
-#include "core/sparse/factor/supernodal_factor.hpp"
 
 namespace clatter::condense {
 
@@ -25,35 +22,32 @@ struct StaticReduction : StaticShapes {
   double rigid_error = 0.0;  // |Psi r_b - r_i| / |r_i| of the plain solve
 };
 
+/// The constraint modes, by a sweep where this process has all rows (static_sweep.hpp), else by
+/// solves, and K_bb = K.bb - K_bi K_ii^{-1} K_ib from the factor.
+///
 /// Rounding in the solve would affect the mass properties: rows and M_bb are changed as little as
 /// possible so that they represent the rigid motions exactly.
-/// @param factor_ii of K.ii with the coupling K.ib. K_bb = K.bb - K_bi K_ii^{-1} K_ib follows from
-/// it.
-/// @param kept interior DoFs whose rows of Psi are requested.
-StaticReduction reduce_statically(const sparse::SupernodalFactor& factor_ii,
-                                  const PartitionedMatrix& K, const PartitionedMatrix& M,
+/// @param factor_ii of K_ii with the coupling K_ib. @param kept interior DoFs of this process whose
+/// rows of Psi are requested.
+StaticReduction reduce_statically(const PartitionedModel& part, const sparse::Factor& factor_ii,
                                   const RigidMotions& rigid, const std::vector<int32_t>& kept,
                                   StaticMass method = StaticMass::kCheaper);
 
-/// The same with a factor that gives only solutions: columns of Psi in blocks,
+/// With a factor that gives only solutions: columns of Psi in blocks,
 ///   M_bb = M_bb + M_bi Psi + Psi^T (M_ii Psi + M_ib),   Psi^T f = -K_bi K_ii^{-1} f,
-/// of which none is kept but the requested rows. For a team `kept` and the rows are those of this
-/// process.
-StaticReduction reduce_by_solves(const sparse::Factor& factor_ii, const PartitionedModel& part,
-                                 const RigidMotions& rigid, const std::vector<int32_t>& kept);
+/// of which none is kept but the requested rows.
+StaticShapes shapes_by_solves(const PartitionedModel& part, const sparse::Factor& factor_ii,
+                              const std::vector<int32_t>& kept);
 
 /// Results for a boundary that do not depend on the modes added.
-struct StaticPart {
-  std::shared_ptr<const sparse::Factor> factor_ii;
+struct StaticPart : InteriorFactor {
   StaticReduction reduction;
-  rom::EliminationOrder order;  // of K_ii
 };
 
 /// Factorises K_ii and reduces statically (Guyan 1965). Steps go to `clock`.
 /// @param kept interior DoFs whose rows of Psi are requested.
-/// @param order reused when it fits K_ii (hard case C7), instead of computing one.
 /// Throws NumericsError when K_ii is singular.
 StaticPart static_part(const PartitionedModel& part, const std::vector<int32_t>& kept,
-                       StepClock& clock, const rom::EliminationOrder& order = {});
+                       StepClock& clock);
 
 }  // namespace clatter::condense

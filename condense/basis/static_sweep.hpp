@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "condense/basis/dof_partition.hpp"
+#include "condense/basis/partitioned_model.hpp"
 #include "core/base/matrix.hpp"
 #include "core/sparse/factor/supernodal_factor.hpp"
 

@@ -21,7 +21,7 @@ constexpr double kRigidLimit = 1e-10;  // hard case B4
 /// R^T M R of the full model for rigid motions about `point`.
 Eigen::MatrixXd rigid_mass(const PartitionedModel& part, const Eigen::Vector3d& point) {
   const Eigen::MatrixXd rigid = rom::rigid_about(part.rows_of_whole(part.full.rigid), point);
-  return part.team().sum(rigid.transpose() * part.whole()->mass_times(rigid));
+  return part.team().sum(rigid.transpose() * part.whole().mass_times(rigid));
 }
 
 double scaled_condition(const Eigen::MatrixXd& M_rr) {

@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kLostShift = 2e-15;  // |sigma| over the highest eigenvalue: rounding level of K
 
-std::unique_ptr<SymmetricOperator> product_in(const std::vector<int64_t>& order,
-                                              const SparseMatrix& lower) {
-  if (order.empty()) return std::make_unique<SymmetricProduct>(lower);
-  return std::make_unique<SymmetricProduct>(reordered(lower, order));
+std::shared_ptr<const SymmetricOperator> product_in(const std::vector<int64_t>& order,
+                                                    const SparseMatrix& lower) {
+  if (order.empty()) return std::make_shared<SymmetricProduct>(lower);
+  return std::make_shared<SymmetricProduct>(reordered(lower, order));
 }
 
 }  // namespace
@@ -45,11 +45,13 @@ InertiaCount LocalPencil::count_below(double limit, const std::vector<int64_t>& 
   return sparse::count_below(own_.K, own_.M, limit, order);
 }
 
-std::unique_ptr<SymmetricOperator> LocalPencil::stiffness(const std::vector<int64_t>& order) const {
+std::shared_ptr<const SymmetricOperator> LocalPencil::stiffness(
+    const std::vector<int64_t>& order) const {
   return product_in(order, own_.K);
 }
 
-std::unique_ptr<SymmetricOperator> LocalPencil::mass(const std::vector<int64_t>& order) const {
+std::shared_ptr<const SymmetricOperator> LocalPencil::mass(
+    const std::vector<int64_t>& order) const {
   return product_in(order, own_.M);
 }
 

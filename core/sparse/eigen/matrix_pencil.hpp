@@ -45,8 +45,10 @@ class MatrixPencil {
   /// Eigenvalues below a limit; `order` is a fill-reducing permutation, may be empty.
   virtual InertiaCount count_below(double limit, const std::vector<int64_t>& order) const = 0;
   /// Fast products in elimination order: row j is row order[j]; empty: unchanged.
-  virtual std::unique_ptr<SymmetricOperator> stiffness(const std::vector<int64_t>& order) const = 0;
-  virtual std::unique_ptr<SymmetricOperator> mass(const std::vector<int64_t>& order) const = 0;
+  virtual std::shared_ptr<const SymmetricOperator> stiffness(
+      const std::vector<int64_t>& order) const = 0;
+  virtual std::shared_ptr<const SymmetricOperator> mass(
+      const std::vector<int64_t>& order) const = 0;
   /// K x, M x and |K| |x| with entrywise magnitudes, for a few columns.
   virtual Eigen::MatrixXd stiffness_times(const Eigen::MatrixXd& x) const = 0;
   virtual Eigen::MatrixXd mass_times(const Eigen::MatrixXd& x) const = 0;
@@ -71,8 +73,9 @@ class LocalPencil : public MatrixPencil {
   double default_shift() const override;
   std::unique_ptr<Factor> factor(double sigma, const FactorOptions& options) const override;
   InertiaCount count_below(double limit, const std::vector<int64_t>& order) const override;
-  std::unique_ptr<SymmetricOperator> stiffness(const std::vector<int64_t>& order) const override;
-  std::unique_ptr<SymmetricOperator> mass(const std::vector<int64_t>& order) const override;
+  std::shared_ptr<const SymmetricOperator> stiffness(
+      const std::vector<int64_t>& order) const override;
+  std::shared_ptr<const SymmetricOperator> mass(const std::vector<int64_t>& order) const override;
   Eigen::MatrixXd stiffness_times(const Eigen::MatrixXd& x) const override;
   Eigen::MatrixXd mass_times(const Eigen::MatrixXd& x) const override;
   Eigen::MatrixXd magnitude_times(const Eigen::MatrixXd& x) const override;
