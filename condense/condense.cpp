@@ -61,15 +61,6 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
   CraigBampton& source = found.basis;
   const int dropped = drop_dependent(source);
 
-  std::map<std::string, Eigen::VectorXd> loads = reduced_loads(model, part.dofs, source.basis);
-  RowMatrix& static_rows = statics.reduction.rows;
-  RowMatrix shape_rows = source.basis.shapes(recovery.unknowns(), Eigen::all);
-  recovery.gather(part, static_rows, shape_rows);
-  rom::Skin skin = recovery.recover(static_rows, shape_rows);
-  RecoveredSets rows = recovery.recover_sets(static_rows, shape_rows);
-  rows.sets.insert(part.dofs.sets.begin(), part.dofs.sets.end());
-  rows.grids.insert(part.dofs.grids.begin(), part.dofs.grids.end());
-  clock.lap("loads and skin rows");
   rom::InertiaInvariants inertia;
   if (options.inertia_invariants) {
     inertia = part.inertia(source.basis);
@@ -77,6 +68,17 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
   }
   Eigen::MatrixXd of_frame;
   if (!part.free.all_free()) of_frame = inertia_force(part, source.basis);
+  std::map<std::string, Eigen::VectorXd> loads = reduced_loads(model, part.dofs, source.basis);
+  RowMatrix& static_rows = statics.reduction.rows;
+  RowMatrix shape_rows = source.basis.shapes(recovery.unknowns(), Eigen::all);
+  source.basis = {};  // with the factor, before the rows of the skin take its memory
+  statics.factor_ii.reset();
+  recovery.gather(part, static_rows, shape_rows);
+  rom::Skin skin = recovery.recover(static_rows, shape_rows);
+  RecoveredSets rows = recovery.recover_sets(static_rows, shape_rows);
+  rows.sets.insert(part.dofs.sets.begin(), part.dofs.sets.end());
+  rows.grids.insert(part.dofs.grids.begin(), part.dofs.grids.end());
+  clock.lap("loads and skin rows");
   rom::ReducedModel reduced{.name = model.name,
                             .method = options.method,
                             .n_boundary = static_cast<int>(part.dofs.boundary.size()),

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/ranks/shared_pencil.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/base/error.hpp"
 #include "core/ranks/parpack.hpp"
 
@@ -20,36 +17,6 @@ SharedPencil::SharedPencil(const SharedMatrices& own, Extent extent)
 
 int64_t SharedPencil::size() const {
   return extent_ == Extent::kWhole ? own_.shares.size() : own_.shares.interior();
-}
-
-sparse::PencilBounds SharedPencil::bounds() const {
-  sparse::PencilBounds out;
-  double massless = 0.0;
-  for (Index j = 0; j < rows(); ++j) {
-    if (M_->diagonal()[j] > 0.0)
-      out.top = std::max(out.top, K_->diagonal()[j] / M_->diagonal()[j]);
-    else
-      massless += 1.0;
-  }
-  out.top = -own_.ranks.least(-out.top);
-  out.massless = static_cast<int64_t>(own_.ranks.sum(massless));
-  return out;
-}
-
-double SharedPencil::default_shift() const {
-  RowMatrix ratio(rows(), 1);
-  Index count = 0;
-  for (Index j = 0; j < rows(); ++j)
-    if (M_->diagonal()[j] > 0.0) ratio(count++, 0) = K_->diagonal()[j] / M_->diagonal()[j];
-  RowMatrix all = own_.ranks.gather(RowMatrix(ratio.topRows(count)));
-  double shift = 0.0;
-  if (all.rows() > 0) {
-    double* median = all.data() + all.rows() / 2;
-    std::nth_element(all.data(), median, all.data() + all.rows());
-    shift = -0.1 * *median * std::pow(static_cast<double>(size()), -2.0 / 3.0);
-  }
-  own_.ranks.agree(&shift, 1);
-  return shift;
 }
 
 std::unique_ptr<sparse::Factor> SharedPencil::probed(double sigma, Extent extent,

@@ -19,8 +19,9 @@ class SharedPencil : public sparse::MatrixPencil {
   int64_t size() const override;
   Eigen::Index rows() const override { return K_->size(); }
   const sparse::RowTeam& team() const override { return own_.ranks; }
-  sparse::PencilBounds bounds() const override;
-  double default_shift() const override;
+  std::pair<Eigen::VectorXd, Eigen::VectorXd> diagonals() const override {
+    return {K_->diagonal(), M_->diagonal()};
+  }
   std::unique_ptr<sparse::Factor> factor(double sigma,
                                          const sparse::FactorOptions& options) const override;
   sparse::InertiaCount count_below(double limit, const std::vector<int64_t>& order) const override;
