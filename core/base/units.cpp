@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "core/base/unit_names.hpp"
 
 namespace clatter {
 

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace clatter {
 
@@ -28,5 +29,7 @@ struct UnitSystem {
 /// "m-kg-s" (N, Pa), "mm-t-s" (N, MPa), "mm-kg-ms" (kN, GPa), "mm-kg-s" (mN, kPa), "cm-g-s" or
 /// "in-lbfs2/in-s" (lbf, psi). InputError, prefixed with `where`, lists them for an unknown name.
 UnitSystem unit_system_named(std::string_view name, const std::string& where);
+/// The names that it knows.
+std::vector<std::string> unit_system_names();
 
 }  // namespace clatter

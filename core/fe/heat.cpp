@@ -13,34 +13,13 @@
 #include "core/fe/cell_points.hpp"
 #include "core/fe/cell_strain.hpp"
 #include "core/fe/element.hpp"
+#include "core/mesh/face_points.hpp"
 #include "core/mesh/quadrature.hpp"
 
 namespace clatter::fe {
 namespace {
 
 constexpr Eigen::Index kHeatChunk = 2048;  // cells whose matrices are held at once
-
-/// Calls use(face's nodes, N, position, dS) at each integration point of a surface.
-template <typename Use>
-void for_each_face_point(const RowMatrix& nodes, const mesh::Surface& surface, const Use& use) {
-  for (const mesh::FaceBlock& block : surface.faces) {
-    const mesh::FaceRule& rule = mesh::face_rule(block.type);
-    std::vector<mesh::FaceShape> shapes;
-    for (const auto& point : rule.points.rowwise())
-      shapes.push_back(mesh::face_shape(block.type, point.transpose()));
-    Eigen::Matrix<double, Eigen::Dynamic, 3, 0, mesh::kMaxFaceNodes, 3> x(block.nodes.cols(), 3);
-    for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
-      for (Eigen::Index a = 0; a < x.rows(); ++a) x.row(a) = nodes.row(block.nodes(f, a));
-      for (size_t q = 0; q < shapes.size(); ++q) {
-        const Eigen::Matrix<double, 3, 2> tangent = x.transpose() * shapes[q].gradient;
-        const double dS = rule.weights(static_cast<Eigen::Index>(q)) *
-                          tangent.col(0).cross(tangent.col(1)).norm();
-        use(block.nodes.row(f), shapes[q].value, Eigen::Vector3d(x.transpose() * shapes[q].value),
-            dS);
-      }
-    }
-  }
-}
 
 /// The value at a point of a face with shape functions N.
 double value_at(const SurfaceValue& value, const auto& face, const auto& N,
@@ -134,17 +113,19 @@ SurfaceHeat film_heat(const RowMatrix& nodes, const mesh::Surface& surface,
   const Eigen::Index n = nodes.rows();
   SurfaceHeat out{SparseMatrix(n, n), Eigen::VectorXd::Zero(n)};
   std::vector<Eigen::Triplet<double, int32_t>> entries;
-  for_each_face_point(nodes, surface,
-                      [&](const auto& face, const auto& N, const Eigen::Vector3d& x, double dS) {
-                        const double h = value_at(coefficient, face, N, x);
-                        const double heat = h * value_at(temperature, face, N, x);
-                        for (Eigen::Index a = 0; a < N.size(); ++a) {
-                          out.q(face(a)) += heat * dS * N(a);
-                          for (Eigen::Index b = 0; b < N.size(); ++b)
-                            if (face(a) >= face(b))
-                              entries.emplace_back(face(a), face(b), h * dS * N(a) * N(b));
-                        }
-                      });
+  mesh::for_each_face_point(nodes, surface,
+                            [&](const auto& face, const auto& N, const Eigen::Vector3d& x,
+                                double weight, const Eigen::Vector3d& normal) {
+                              const double dS = weight * normal.norm();
+                              const double h = value_at(coefficient, face, N, x);
+                              const double heat = h * value_at(temperature, face, N, x);
+                              for (Eigen::Index a = 0; a < N.size(); ++a) {
+                                out.q(face(a)) += heat * dS * N(a);
+                                for (Eigen::Index b = 0; b < N.size(); ++b)
+                                  if (face(a) >= face(b))
+                                    entries.emplace_back(face(a), face(b), h * dS * N(a) * N(b));
+                              }
+                            });
   out.H.setFromTriplets(entries.begin(), entries.end());
   return out;
 }
@@ -152,11 +133,13 @@ SurfaceHeat film_heat(const RowMatrix& nodes, const mesh::Surface& surface,
 Eigen::VectorXd flux_heat(const RowMatrix& nodes, const mesh::Surface& surface,
                           const SurfaceValue& flux) {
   Eigen::VectorXd q = Eigen::VectorXd::Zero(nodes.rows());
-  for_each_face_point(nodes, surface,
-                      [&](const auto& face, const auto& N, const Eigen::Vector3d& x, double dS) {
-                        const double heat = value_at(flux, face, N, x) * dS;
-                        for (Eigen::Index a = 0; a < N.size(); ++a) q(face(a)) += heat * N(a);
-                      });
+  mesh::for_each_face_point(nodes, surface,
+                            [&](const auto& face, const auto& N, const Eigen::Vector3d& x,
+                                double weight, const Eigen::Vector3d& normal) {
+                              const double heat =
+                                  value_at(flux, face, N, x) * (weight * normal.norm());
+                              for (Eigen::Index a = 0; a < N.size(); ++a) q(face(a)) += heat * N(a);
+                            });
   return q;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Rows of numbers and flags, and what all rows have in common.
 #include "core/keys/keys.hpp"
 
 #include <fmt/format.h>
@@ -6,25 +7,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
-#include <cstring>
-#include <set>
+#include <stdexcept>
 
-#include "core/base/unit_names.hpp"
+#include "core/keys/member.hpp"
 
 namespace clatter::keys {
 namespace {
-
-template <class T>
-T& member(std::byte* bytes) {
-  return *reinterpret_cast<T*>(bytes);
-}
-
-template <class T>
-const T& member(const std::byte* bytes) {
-  return *reinterpret_cast<const T*>(bytes);
-}
 
 double in_si(double value, const KeyUnit& unit, const Config& table) {
   return value * (unit.of_file ? table.metre() * unit.scale : unit.scale) + unit.offset;
@@ -34,8 +23,6 @@ double in_si(double value, const KeyUnit& unit, const Config& table) {
 double in_unit(double value, const KeyUnit& unit, double metre = 1.0) {
   return rounded((value - unit.offset) / (unit.of_file ? metre * unit.scale : unit.scale), 15);
 }
-
-std::string quoted(const std::string& text) { return "\"" + text + "\""; }
 
 std::string shown(double value) { return fmt::format("{}", value); }
 
@@ -85,92 +72,20 @@ std::string written_list(const Key& row, const double* values, size_t count) {
 
 }  // namespace
 
-Row& Row::required() {
-  key_.required = true;
-  key_.standard.clear();
-  return *this;
-}
-
-Row& Row::needs(std::string other, Values values, std::string reason) {
-  key_.rules.push_back({Rule::Kind::kNeeds, std::move(other), values.all, std::move(reason)});
-  return *this;
-}
-
-Row& Row::excludes(std::string other, std::string reason) {
-  key_.rules.push_back({Rule::Kind::kExcludes, std::move(other), {}, std::move(reason)});
-  return *this;
-}
-
-Row& Row::required_with(std::string other, Values values) {
-  key_.rules.push_back({Rule::Kind::kRequiredWith, std::move(other), values.all, ""});
-  return *this;
-}
-
-Row& Row::of(const std::string& other, const Values& values) {
-  needs(other, values);
-  return required_with(other, values);
-}
-
-Row& Row::as_many_as(std::string other) {
-  key_.rules.push_back({Rule::Kind::kAsMany, std::move(other), {}, ""});
-  return *this;
-}
-
-Row& Row::ascending() {
-  key_.ascending = true;
-  return *this;
-}
-
-Row& Row::in_length_unit() {
-  key_.unit.shown = "length_unit";
-  key_.unit.of_file = true;
-  return *this;
-}
-
-Row& Row::count(size_t count) {
-  key_.count = count;
-  return *this;
-}
-
-Row& Row::each_of(std::vector<std::string> choices) {
-  key_.choices = std::move(choices);
-  return *this;
-}
-
-Row& Row::distinct() {
-  key_.distinct = true;
-  return *this;
-}
-
-Row& Row::types(std::vector<Type> types) {
-  key_.types = std::move(types);
-  return *this;
-}
-
-Row& Row::shown_in(std::string unit) {
-  key_.unit.shown = std::move(unit);
-  return *this;
-}
-
-Row& Row::unconverted() {
-  key_.unit.scale = 1.0;
-  key_.unit.offset = 0.0;
-  return *this;
-}
-
-Row& Row::times(double factor) {
-  key_.unit.scale *= factor;
-  return *this;
-}
-
 size_t Rows::offset_of(const void* member) const {
   const auto offset = static_cast<size_t>(static_cast<const std::byte*>(member) - standard_);
-  assert(offset < size_);  // a member of the struct itself, not of a vector or optional in it
+  if (offset >= size_)
+    throw std::logic_error(table_.name() + ": a row's member is not in the struct itself");
   return offset;
 }
 
+void Rows::require_new(const std::string& name) const {
+  if (table_.find(name) != nullptr)
+    throw std::logic_error(table_.name() + ": two rows of the name " + name);
+}
+
 Key& Rows::add(std::string name, Type type, const void* member, std::string meaning) {
-  assert(table_.find(name) == nullptr);
+  require_new(name);
   Key key;
   key.unit = unit_of(name);
   key.name = std::move(name);
@@ -272,104 +187,6 @@ Row Rows::flag(std::string name, std::optional<bool>& at, std::string meaning) {
   return Row(key);
 }
 
-Row Rows::text(std::string name, std::string& at, std::string meaning) {
-  Key& key = add(std::move(name), Type::kText, &at, std::move(meaning));
-  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
-    if (is_absent(row, table)) return;
-    auto& value = member<std::string>(bytes);
-    value = row.required ? table.text(row.name) : table.text_or(row.name, value);
-  };
-  key.written = [](const Key&, const std::byte* bytes) {
-    const auto& value = member<std::string>(bytes);
-    return value.empty() ? "" : quoted(value);
-  };
-  return Row(key);
-}
-
-size_t Rows::choice_of(const Key& key, const Config& table, const std::string& text) {
-  const auto at = std::find(key.choices.begin(), key.choices.end(), text);
-  if (at == key.choices.end())
-    table.fail(key.name, fmt::format("found \"{}\", expected one of: {}", text,
-                                     fmt::join(key.choices, ", ")));
-  return static_cast<size_t>(at - key.choices.begin());
-}
-
-Row Rows::add_choice(std::string name, const void* at, std::vector<std::string> choices,
-                     std::vector<std::byte> values, std::string meaning) {
-  Key& key = add(std::move(name), Type::kChoice, at, std::move(meaning));
-  const size_t bytes_each = values.size() / choices.size();
-  const auto index_of = [values, bytes_each](const Key& row, const std::byte* bytes) {
-    for (size_t k = 0; k < row.choices.size(); ++k)
-      if (std::memcmp(bytes, &values[k * bytes_each], bytes_each) == 0) return k;
-    return row.choices.size();
-  };
-  key.choices = std::move(choices);
-  key.read = [values, bytes_each, index_of](const Key& row, const Config& table, std::byte* bytes) {
-    const size_t standard = index_of(row, bytes);
-    if (standard == row.choices.size() && !row.required && !table.has(row.name)) return;
-    const std::string text = row.required || standard == row.choices.size()
-                                 ? table.text(row.name)
-                                 : table.text_or(row.name, row.choices[standard]);
-    std::memcpy(bytes, &values[choice_of(row, table, text) * bytes_each], bytes_each);
-  };
-  key.written = [index_of](const Key& row, const std::byte* bytes) {
-    const size_t k = index_of(row, bytes);
-    return k == row.choices.size() ? "" : quoted(row.choices[k]);
-  };
-  return Row(key);
-}
-
-Row Rows::name(std::string name, std::string& at, std::string meaning) {
-  Row row = text(std::move(name), at, std::move(meaning));
-  Key& key = table_.keys_.back();
-  key.read = [read = key.read](const Key& self, const Config& table, std::byte* bytes) {
-    read(self, table, bytes);
-    const auto& value = member<std::string>(bytes);
-    if (table.has(self.name) && (value.empty() || value.find('/') != std::string::npos))
-      table.fail(self.name, fmt::format("found \"{}\", expected a name without '/'", value));
-  };
-  return row;
-}
-
-Row Rows::choice(std::string name, std::string& at, std::vector<std::string> choices,
-                 std::string meaning) {
-  Row row = text(std::move(name), at, std::move(meaning));
-  Key& key = table_.keys_.back();
-  key.type = Type::kChoice;
-  key.choices = std::move(choices);
-  key.read = [read = key.read](const Key& self, const Config& table, std::byte* bytes) {
-    read(self, table, bytes);
-    if (table.has(self.name)) choice_of(self, table, member<std::string>(bytes));
-  };
-  return row;
-}
-
-Row Rows::units(std::string name, UnitSystem& at, std::string meaning) {
-  Key& key = add(std::move(name), Type::kChoice, &at, std::move(meaning));
-  key.choices = unit_system_names();
-  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
-    if (row.required || table.has(row.name))
-      member<UnitSystem>(bytes) = unit_system_named(table.text(row.name), table.where(row.name));
-  };
-  key.written = [](const Key&, const std::byte* bytes) {
-    return quoted(member<UnitSystem>(bytes).name);
-  };
-  return Row(key);
-}
-
-Row Rows::path(std::string name, std::filesystem::path& at, std::string meaning) {
-  Key& key = add(std::move(name), Type::kPath, &at, std::move(meaning));
-  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
-    if (row.required || table.has(row.name))
-      member<std::filesystem::path>(bytes) = table.path(row.name);
-  };
-  key.written = [](const Key&, const std::byte* bytes) {
-    const auto& value = member<std::filesystem::path>(bytes);
-    return value.empty() ? "" : quoted(value.string());
-  };
-  return Row(key);
-}
-
 Row Rows::numbers(std::string name, std::vector<double>& at, Range each, std::string meaning) {
   Key& key = add(std::move(name), Type::kNumbers, &at, std::move(meaning));
   key.range = each;
@@ -447,20 +264,6 @@ Row Rows::by_name(std::string name, std::map<std::string, double>& at, Range eac
   return Row(key);
 }
 
-Row Rows::texts(std::string name, std::vector<std::string>& at, std::string meaning) {
-  Key& key = add(std::move(name), Type::kTexts, &at, std::move(meaning));
-  key.read = [](const Key& row, const Config& table, std::byte* bytes) {
-    auto& values = member<std::vector<std::string>>(bytes);
-    values = row.required ? table.texts(row.name) : read_choices(row, table, values);
-    if (row.required && values.empty())
-      table.fail(row.name, "found none, expected one or more names");
-  };
-  key.written = [](const Key&, const std::byte* bytes) {
-    return in_toml(member<std::vector<std::string>>(bytes));
-  };
-  return Row(key);
-}
-
 Row Rows::fixed(std::string name, const double* at, size_t count, Range each, std::string meaning) {
   Key& key = add(std::move(name), Type::kNumbers, at, std::move(meaning));
   key.range = each;
@@ -506,8 +309,8 @@ Eigen::Vector3d read_direction(const Key& row, const Config& table) {
 
 }  // namespace
 
-Row Rows::direction(std::string name, Eigen::Vector3d& at, std::string meaning) {
-  Row row = vector(std::move(name), at, {}, std::move(meaning));
+Row Rows::direction(const std::string& name, Eigen::Vector3d& at, const std::string& meaning) {
+  Row row = vector(name, at, {}, meaning);
   table_.keys_.back().read = [](const Key& self, const Config& table, std::byte* bytes) {
     if (self.required || table.has(self.name))
       member<Eigen::Vector3d>(bytes) = read_direction(self, table);
@@ -528,25 +331,6 @@ Row Rows::direction(std::string name, std::optional<Eigen::Vector3d>& at, std::s
   return row;
 }
 
-Row Rows::length_unit(std::string name, double& at,
-                      std::vector<std::pair<std::string, double>> units, std::string meaning) {
-  std::vector<std::string> names;
-  std::vector<std::byte> values;
-  for (const auto& [text, metre] : units) {
-    names.push_back(text);
-    const auto* bytes = reinterpret_cast<const std::byte*>(&metre);
-    values.insert(values.end(), bytes, bytes + sizeof(double));
-  }
-  Row row =
-      add_choice(std::move(name), &at, std::move(names), std::move(values), std::move(meaning));
-  Key& key = table_.keys_.back();
-  key.read = [read = key.read](const Key& self, const Config& table, std::byte* bytes) {
-    read(self, table, bytes);
-    table.set_metre(member<double>(bytes));
-  };
-  return row;
-}
-
 void Rows::in_either(const std::string& first, const std::string& second, bool& is_second) {
   for (Key& key : table_.keys_) {
     const bool is_first = key.name == first;
@@ -562,34 +346,6 @@ void Rows::in_either(const std::string& first, const std::string& second, bool& 
       return member<bool>(bytes + to_flag) == is_first ? "" : written(row, bytes);
     };
     if (!is_first) Row(key).excludes(first);
-  }
-}
-
-std::vector<std::string> Rows::read_choices(const Key& row, const Config& table,
-                                            const std::vector<std::string>& standard) {
-  const std::vector<std::string> texts = table.texts_or(row.name, standard);
-  if (row.choices.empty()) return texts;
-  if (texts.empty()) table.fail(row.name, "found none, expected at least one");
-  for (const std::string& text : texts)
-    if (std::find(row.choices.begin(), row.choices.end(), text) == row.choices.end())
-      table.fail(row.name, fmt::format("found \"{}\", expected some of: {}", text,
-                                       fmt::join(row.choices, ", ")));
-  return texts;
-}
-
-std::string Rows::in_toml(const std::vector<std::string>& texts) {
-  std::vector<std::string> all;
-  for (const std::string& text : texts) all.push_back(quoted(text));
-  return fmt::format("[{}]", fmt::join(all, ", "));
-}
-
-void Rows::check_distinct(const Table& keys, const std::vector<Config>& tables) {
-  for (const Key& key : keys.keys()) {
-    std::set<std::string> texts;
-    for (const Config& table : tables)
-      if (key.distinct && table.has(key.name) && !texts.insert(table.text(key.name)).second)
-        table.fail(key.name, fmt::format("found \"{}\" twice, expected different names",
-                                         table.text(key.name)));
   }
 }
 

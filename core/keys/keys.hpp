@@ -33,55 +33,10 @@
 #include <vector>
 
 #include "core/base/units.hpp"
+#include "core/keys/row.hpp"
 #include "core/keys/table.hpp"
 
 namespace clatter::keys {
-
-/// None, one or several values of a choice or flag, of a rule.
-struct Values {
-  Values() = default;
-  Values(const char* one) : all{one} {}
-  Values(std::initializer_list<const char*> several) : all(several.begin(), several.end()) {}
-  std::vector<std::string> all;
-};
-
-/// The row that was added last, for what not every key has.
-class Row {
- public:
-  explicit Row(Key& key) : key_(key) {}
-  /// The table is refused without this key; of lists and tables, with none of them.
-  Row& required();
-  /// Refused without the key `other`, or where that choice or flag has another value.
-  Row& needs(std::string other, Values values = {}, std::string reason = "");
-  Row& excludes(std::string other, std::string reason = "");
-  /// Refused without this key where `other` is given, or has this value.
-  Row& required_with(std::string other, Values values = {});
-  /// Both: a key of that choice alone, which cannot do without.
-  Row& of(const std::string& other, const Values& values = {});
-  /// A list as long as the list `other`.
-  Row& as_many_as(std::string other);
-  /// A list of numbers, each above the one before.
-  Row& ascending();
-  /// A length without a unit in its name: in that of the file, which length_unit() reads.
-  Row& in_length_unit();
-  /// Of a list: exactly so many.
-  Row& count(size_t count);
-  /// Of a list of texts: each is one of these.
-  Row& each_of(std::vector<std::string> choices);
-  /// Of a text: no other table of the list has the same.
-  Row& distinct();
-  /// Of value(): what may be written.
-  Row& types(std::vector<Type> types);
-  /// The unit as shown, where the name's end has two meanings: N m, not N/m.
-  Row& shown_in(std::string unit);
-  /// The member keeps the number in the key's unit.
-  Row& unconverted();
-  /// The member gets `factor` times the value: 0.5 for a radius given as a diameter.
-  Row& times(double factor);
-
- private:
-  Key& key_;
-};
 
 /// Rows that do not depend on the struct: members are known by their offset in it.
 class Rows {
@@ -110,16 +65,18 @@ class Rows {
   Row texts(std::string name, std::vector<std::string>& at, std::string meaning);
   /// As many numbers as the member has.
   template <int n>
-  Row vector(std::string name, Eigen::Matrix<double, n, 1>& at, Range each, std::string meaning) {
-    return fixed(std::move(name), at.data(), static_cast<size_t>(n), each, std::move(meaning));
+  Row vector(const std::string& name, Eigen::Matrix<double, n, 1>& at, Range each,
+             const std::string& meaning) {
+    return fixed(name, at.data(), static_cast<size_t>(n), each, meaning);
   }
   template <size_t n>
-  Row vector(std::string name, std::array<double, n>& at, Range each, std::string meaning) {
-    return fixed(std::move(name), at.data(), n, each, std::move(meaning));
+  Row vector(const std::string& name, std::array<double, n>& at, Range each,
+             const std::string& meaning) {
+    return fixed(name, at.data(), n, each, meaning);
   }
   Row vector(std::string name, std::optional<Eigen::Vector3d>& at, Range each, std::string meaning);
   /// Three numbers that are not all 0; the member gets length 1.
-  Row direction(std::string name, Eigen::Vector3d& at, std::string meaning);
+  Row direction(const std::string& name, Eigen::Vector3d& at, const std::string& meaning);
   Row direction(std::string name, std::optional<Eigen::Vector3d>& at, std::string meaning);
   /// A number, or a list of them.
   Row one_or_more(std::string name, std::vector<double>& at, Range each, std::string meaning);
@@ -135,7 +92,10 @@ class Rows {
   void in_either(const std::string& first, const std::string& second, bool& is_second);
 
  protected:
+  /// std::logic_error for what is no member of the struct itself, but of a vector or optional in
+  /// it, and for a second key of a name: mistakes in a table, not in a file.
   size_t offset_of(const void* member) const;
+  void require_new(const std::string& name) const;
   Key& add(std::string name, Type type, const void* member, std::string meaning);
   /// Index of a text among the choices of a key.
   static size_t choice_of(const Key& key, const Config& table, const std::string& text);
@@ -211,7 +171,7 @@ class Keys : private Rows {
 
   /// The member gets "file:line" of the table for messages of later checks, or with `key`
   /// "file:line: table.key" of that key.
-  void where(std::string& at, std::string key = "") {
+  void where(std::string& at, const std::string& key = "") {
     checks_.push_back([offset = offset_of(&at), key](const Config& config, S& s) {
       *reinterpret_cast<std::string*>(reinterpret_cast<std::byte*>(&s) + offset) =
           key.empty() ? config.where() : config.where(key);
@@ -357,6 +317,7 @@ class Keys : private Rows {
     const size_t offset = offset_of(&at);
     for (Key key : keys.table().keys()) {
       key.offset += offset;
+      require_new(key.name);
       data_.keys_.push_back(std::move(key));
     }
     for (const auto& group : keys.table().alternatives()) data_.alternatives_.push_back(group);

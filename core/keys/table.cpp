@@ -151,7 +151,7 @@ std::string Table::toml_of(const std::byte* object, const std::string& prefix) c
     key.each(object + key.offset, [&](const std::string& name, const std::byte* one) {
       const std::string dotted = name.empty() ? "" : "." + name;
       text += fmt::format(fmt::runtime(heading), prefix, key.name, dotted) +
-              key.table->toml_of(one, prefix + key.name + dotted + ".");
+              key.table->toml_of(one, fmt::format("{}{}{}.", prefix, key.name, dotted));
     });
   }
   return text;
