@@ -59,7 +59,6 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
                             ? search_cutoff(part, statics, options.modes, clock)
                             : SearchedBasis{craig_bampton(part, statics, options.modes, clock), {}};
   CraigBampton& source = found.basis;
-  const int dropped = drop_dependent(source);
 
   rom::InertiaInvariants inertia;
   if (options.inertia_invariants) {
@@ -113,7 +112,7 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
     record(interface.report, reduced.certificate);
     clock.lap(fmt::format("{} interface modes", interface.report.modes));
   }
-  certify(reduced, part, source, {motions, part.free.all_free()}, dropped, options.certificate);
+  certify(reduced, part, source, {motions, part.free.all_free()}, options.certificate);
   clock.lap("certificate");
   return reduced;
 }

@@ -9,6 +9,26 @@
 #include "core/base/log.hpp"
 
 namespace clatter::condense {
+namespace {
+
+/// Drops vectors that depend on others.
+void drop_dependent(CraigBampton& source) {
+  ReducedBasis& basis = source.basis;
+  const std::vector<int> kept = independent_columns(source.M_rr, basis.boundary());
+  source.dropped = static_cast<int>(basis.size()) - static_cast<int>(kept.size());
+  if (source.dropped == 0) return;
+  warn(fmt::format("{} basis vectors depend on others and were dropped", source.dropped));
+  std::vector<int> modes;
+  for (const int j : kept) {
+    if (j >= basis.boundary()) modes.push_back(j - static_cast<int>(basis.boundary()));
+  }
+  source.fixed_interface_hz = source.fixed_interface_hz(modes).eval();
+  basis.shapes = basis.shapes(Eigen::all, modes).eval();
+  source.M_rr = source.M_rr(kept, kept).eval();
+  source.K_rr = source.K_rr(kept, kept).eval();
+}
+
+}  // namespace
 
 CraigBampton craig_bampton(const PartitionedModel& part, const StaticPart& statics,
                            const ModeRequest& request, StepClock& clock) {
@@ -25,13 +45,16 @@ CraigBampton craig_bampton(const PartitionedModel& part, const StaticPart& stati
   clock.lap("reduced matrices");
   const bool guyan = request.count == 0 && request.fmax_hz == 0.0;
   const double target = guyan ? 0.0 : request.frequency_error;
-  if (target == 0.0 && !request.estimate_error) return out;
-  out.residual = add_residual_modes(out, factor, part, part.free.q(part.dofs.boundary, Eigen::all),
-                                    out.interior.accurate_to_hz, target);
-  const Eigen::Index shapes = out.fixed_interface_hz.size();
-  out.fixed_interface_hz.conservativeResize(shapes + out.residual.hz.size());
-  out.fixed_interface_hz.tail(out.residual.hz.size()) = out.residual.hz;
-  clock.lap(fmt::format("{} residual modes", out.residual.hz.size()));
+  if (target > 0.0 || request.estimate_error) {
+    out.residual =
+        add_residual_modes(out, factor, part, part.free.q(part.dofs.boundary, Eigen::all),
+                           out.interior.accurate_to_hz, target);
+    const Eigen::Index shapes = out.fixed_interface_hz.size();
+    out.fixed_interface_hz.conservativeResize(shapes + out.residual.hz.size());
+    out.fixed_interface_hz.tail(out.residual.hz.size()) = out.residual.hz;
+    clock.lap(fmt::format("{} residual modes", out.residual.hz.size()));
+  }
+  drop_dependent(out);
   return out;
 }
 
@@ -51,23 +74,6 @@ std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, Eigen::Index p
     kept.push_back(static_cast<int>(j));
   }
   return kept;
-}
-
-int drop_dependent(CraigBampton& source) {
-  ReducedBasis& basis = source.basis;
-  const std::vector<int> kept = independent_columns(source.M_rr, basis.boundary());
-  const int dropped = static_cast<int>(basis.size()) - static_cast<int>(kept.size());
-  if (dropped == 0) return 0;
-  warn(fmt::format("{} basis vectors depend on others and were dropped", dropped));
-  std::vector<int> modes;
-  for (const int j : kept) {
-    if (j >= basis.boundary()) modes.push_back(j - static_cast<int>(basis.boundary()));
-  }
-  source.fixed_interface_hz = source.fixed_interface_hz(modes).eval();
-  basis.shapes = basis.shapes(Eigen::all, modes).eval();
-  source.M_rr = source.M_rr(kept, kept).eval();
-  source.K_rr = source.K_rr(kept, kept).eval();
-  return dropped;
 }
 
 }  // namespace clatter::condense

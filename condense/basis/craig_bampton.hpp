@@ -17,6 +17,7 @@ struct CraigBampton : Reduction {
   ResidualReport residual;
   sparse::FactorReport factor;
   double rigid_error = 0.0;  // of the static shapes
+  int dropped = 0;           // vectors that depended on others (hard case B3)
 };
 
 /// Basis of Craig and Bampton (1968): Psi_ib = -K_ii^{-1} K_ib with the shapes Phi_ik of
@@ -32,8 +33,5 @@ CraigBampton craig_bampton(const PartitionedModel& part, const StaticPart& stati
 /// @param M_rr r x r, the columns' Gram matrix in the mass inner product.
 std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, Eigen::Index protected_count,
                                      double tolerance = 1e-12);
-
-/// Drops vectors that depend on others; returns how many.
-int drop_dependent(CraigBampton& source);
 
 }  // namespace clatter::condense

@@ -46,7 +46,7 @@ void carry_rigid_motions(const PartitionedModel& part, const sparse::Factor& fac
   out.M_bb = (0.5 * (out.M_bb + out.M_bb.transpose())).eval();
 }
 
-InteriorFactor factor_interior(const PartitionedModel& part) {
+InteriorFactor factorised(const PartitionedModel& part) {
   try {
     return part.factor_interior();
   } catch (const sparse::NotPositiveDefinite& error) {
@@ -104,7 +104,7 @@ StaticReduction reduce_statically(const PartitionedModel& part, const sparse::Fa
 
 StaticPart static_part(const PartitionedModel& part, const std::vector<int32_t>& kept,
                        StepClock& clock) {
-  StaticPart out{factor_interior(part), {}};
+  StaticPart out{factorised(part), {}};
   clock.lap(fmt::format("factor of K_ii ({:.3g} entries{})", static_cast<double>(out.order.entries),
                         out.order.method == "given" ? ", stored order" : ""));
   const Eigen::MatrixXd& motions = part.free.q;

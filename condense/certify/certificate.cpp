@@ -132,7 +132,7 @@ double clear_rigid_stiffness(rom::ReducedModel& reduced, const Eigen::MatrixXd& 
 }
 
 void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const CraigBampton& source,
-             const ReducedMotions& free, int dropped, bool spectrum) {
+             const ReducedMotions& free, bool spectrum) {
   rom::ReducedCertificate& out = reduced.certificate;
   const Eigen::Vector3d centre =
       rom::properties_of(rigid_mass(part, Eigen::Vector3d::Zero())).centre;
@@ -148,7 +148,7 @@ void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const Cra
     out.mass_error_elements = compare_mass(found, part.full.mass).largest();
   }
   out.certified = spectrum ? 1.0 : 0.0;
-  out.dropped_vectors = dropped + source.interior.dropped;
+  out.dropped_vectors = source.dropped + source.interior.dropped;
   out.K_ii_rcond = source.factor.rcond;
   out.K_ii_probe_residual = source.factor.probe_residual;
   if (!reduced.inertia.empty()) out.inertia_invariants_error = inertia_error(reduced, free_body);

@@ -42,6 +42,6 @@ struct ReducedMotions {
 /// frequency_error_joined is the accuracy of a body joined to others (absent with own modes).
 /// Throws NumericsError when the reduction did not preserve the rigid motions or the mass.
 void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const CraigBampton& source,
-             const ReducedMotions& free, int dropped, bool spectrum);
+             const ReducedMotions& free, bool spectrum);
 
 }  // namespace clatter::condense
