@@ -132,7 +132,7 @@ double clear_rigid_stiffness(rom::ReducedModel& reduced, const Eigen::MatrixXd& 
 }
 
 void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const CraigBampton& source,
-             const ReducedMotions& free, bool spectrum) {
+             const Eigen::MatrixXd& motions, bool spectrum) {
   rom::ReducedCertificate& out = reduced.certificate;
   const Eigen::Vector3d centre =
       rom::properties_of(rigid_mass(part, Eigen::Vector3d::Zero())).centre;
@@ -140,9 +140,9 @@ void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const Cra
   const rom::MassProperties found =
       rom::properties_of(rigid.transpose() * reduced.M_rr * rigid, centre);
   const rom::MassProperties full = rom::properties_of(rigid_mass(part, centre), centre);
-  out.rigid_stiffness_residue = clear_rigid_stiffness(reduced, free.q);
+  out.rigid_stiffness_residue = clear_rigid_stiffness(reduced, motions);
   out.rigid_shape_error = source.rigid_error;
-  const bool free_body = free.all_free;  // a held body cannot move rigidly
+  const bool free_body = part.free.all_free();  // a held body cannot move rigidly
   if (free_body) {
     out.mass_error = compare_mass(found, full).largest();
     out.mass_error_elements = compare_mass(found, part.full.mass).largest();
@@ -154,7 +154,7 @@ void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const Cra
   if (!reduced.inertia.empty()) out.inertia_invariants_error = inertia_error(reduced, free_body);
   if (spectrum) {
     out.condition_M_rr = scaled_condition(reduced.M_rr);
-    certify_spectrum(reduced, free.q);
+    certify_spectrum(reduced, motions);
   }
   certify_modes(reduced, source);
   if (free_body && !(*out.mass_error <= kMassLimit)) {
@@ -170,12 +170,12 @@ void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const Cra
         *out.inertia_invariants_error, kMassLimit));
   }
   if (!(*out.rigid_stiffness_residue <= kRigidLimit) ||
-      (spectrum && out.rigid_modes != static_cast<double>(free.q.cols()))) {
+      (spectrum && out.rigid_modes != static_cast<double>(motions.cols()))) {
     throw NumericsError(fmt::format(
         "reduced model: {} rigid modes with stiffness residue {:.1e}, expected {} and at most "
         "{:.0e}",
         spectrum ? fmt::format("{}", *out.rigid_modes) : "uncounted", *out.rigid_stiffness_residue,
-        free.q.cols(), kRigidLimit));
+        motions.cols(), kRigidLimit));
   }
 }
 
