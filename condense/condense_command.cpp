@@ -22,7 +22,23 @@ struct CondenseArguments {
   double verify_hz = std::nan("");  // not a number: no verification
 };
 
-void condense_part(const CondenseArguments& a, const Reducer& reducer,
+/// clatter-condense-mpi does it too.
+bool several_processes_could(const CondenseOptions& options) {
+  return options.modes.method != sparse::EigenMethod::kAmls;
+}
+
+rom::ReducedModel reduce(const CondenseArguments& a, const PartitionedModel& part,
+                         const CondenseOptions& options, StepClock& clock) {
+  rom::ReducedModel reduced = condense(part, options, clock);
+  for (const std::string& text : describe(reduced)) print_result(text);
+  if (std::isnan(a.verify_hz)) return reduced;
+  const modes::Comparison compared = verify(reduced, part, a.verify_hz);
+  clock.lap("verification by the full model");
+  if (!compared.modes.empty()) print_result(modes::table_of(compared).back());
+  return reduced;
+}
+
+void condense_part(const CondenseArguments& a, const PartSource& source,
                    const CommonOptions& common) {
   if (a.verify_hz < 0.0)
     throw InputError(
@@ -34,8 +50,16 @@ void condense_part(const CondenseArguments& a, const Reducer& reducer,
   if (a.uncertified)
     options.certificate = options.modes.prove_count = options.modes.estimate_error = false;
   options.order = rom::read_elimination_order(a.output);
-  const rom::ReducedModel reduced = reducer.reduce(a.model, options, a.verify_hz, common, clock);
-  if (!reducer.writes) return;
+  const std::optional<fe::FeModel> model = source.read(a.model, common);
+  if (!model) return;
+  clock.lap(fmt::format("read {} DoF", model->size()));
+  const rom::ReducedModel reduced =
+      with_memory_advice(several_processes_could(options) ? source.memory_advice : "", [&] {
+        const auto part = source.partition(a.model, *model, options);
+        clock.lap("partition");
+        return reduce(a, *part, options, clock);
+      });
+  if (!source.writes) return;
   write_artefact(a.output, {rom::kRomSchema, config.resolved(), {a.model, a.config}}, clock, common,
                  [&](H5File& file) {
                    rom::write_reduced_model(file, reduced);
@@ -44,34 +68,9 @@ void condense_part(const CondenseArguments& a, const Reducer& reducer,
   print_json_result(a.output, json_of(reduced), clock, common);
 }
 
-/// clatter-condense-mpi does it too.
-bool several_processes_could(const CondenseOptions& options) {
-  return options.modes.method != sparse::EigenMethod::kAmls;
-}
-
 }  // namespace
 
-Reducer one_process_reducer() {
-  return {[](const std::filesystem::path& path, const CondenseOptions& options, double verify_hz,
-             const CommonOptions&, StepClock& clock) {
-    const fe::FeModel model = fe::read_fe_model(path);
-    fe::require_unknowns(model, "a reduction");
-    clock.lap(fmt::format("read {} DoF", model.size()));
-    rom::ReducedModel reduced = with_memory_advice(
-        several_processes_could(options) ? "or share the part among processes: mpirun -n 4 "
-                                           "clatter-condense-mpi (docs/cluster.md)"
-                                         : "",
-        [&] { return condense(model, options, clock); });
-    for (const std::string& text : describe(reduced)) print_result(text);
-    if (std::isnan(verify_hz)) return reduced;
-    const modes::Comparison compared = verify(reduced, model, verify_hz);
-    clock.lap("verification by the full model");
-    if (!compared.modes.empty()) print_result(modes::table_of(compared).back());
-    return reduced;
-  }};
-}
-
-void declare_condense(CommandLine& line, const Reducer& reducer) {
+void declare_condense(CommandLine& line, const PartSource& source) {
   const auto a = std::make_shared<CondenseArguments>();
   line.positional("model", a->model, "assembled part (.fe.h5)");
   line.option("-c,--config", a->config, "what to retain (.rom.toml)", true);
@@ -84,7 +83,7 @@ void declare_condense(CommandLine& line, const Reducer& reducer) {
               "largest error and the smallest MAC into the certificate; 0: up to accurate_to_hz");
   line.blas();
   line.memory_limit();
-  line.action([a, reducer](const CommonOptions& common) { condense_part(*a, reducer, common); });
+  line.action([a, source](const CommonOptions& common) { condense_part(*a, source, common); });
 }
 
 }  // namespace clatter::condense

@@ -3,67 +3,32 @@
 
 #include <fmt/format.h>
 
-#include <memory>
+#include <algorithm>
+#include <cmath>
 
-#include "core/base/error.hpp"
-#include "core/fe/dof_label.hpp"
+#include "core/base/log.hpp"
 
 namespace clatter::condense {
 namespace {
 
-std::shared_ptr<const sparse::SupernodalFactor> factorise_interior(
-    const PartitionedModel& part, const rom::EliminationOrder& order) {
-  try {
-    sparse::FactorOptions options;
-    if (order.fits(part.K.ii))
-      options.permutation.assign(order.permutation.begin(), order.permutation.end());
-    return std::make_shared<sparse::SupernodalFactor>(part.K.ii, part.K.ib, options);
-  } catch (const sparse::NotPositiveDefinite& error) {
-    const std::string where =
-        error.column < 0
-            ? std::string{}
-            : ", at " + fe::describe_dof(part.full,
-                                         part.dofs.interior[static_cast<size_t>(error.column)]);
-    throw sparse::NotPositiveDefinite(
-        fmt::format("the boundary does not hold the body: K_ii {}{}; add a set to the boundary, or "
-                    "look for a part of the mesh that is not connected",
-                    error.what(), where),
-        error.column);
+/// Drops vectors that depend on others.
+void drop_dependent(CraigBampton& source) {
+  ReducedBasis& basis = source.basis;
+  const std::vector<int> kept = independent_columns(source.M_rr, basis.boundary());
+  source.dropped = static_cast<int>(basis.size()) - static_cast<int>(kept.size());
+  if (source.dropped == 0) return;
+  warn(fmt::format("{} basis vectors depend on others and were dropped", source.dropped));
+  std::vector<int> modes;
+  for (const int j : kept) {
+    if (j >= basis.boundary()) modes.push_back(j - static_cast<int>(basis.boundary()));
   }
-}
-
-rom::EliminationOrder order_of(const sparse::SupernodalFactor& factor, const SparseMatrix& K_ii) {
-  const std::vector<int64_t> permutation = factor.permutation();
-  return {{permutation.begin(), permutation.end()},
-          rom::sha256_of_pattern(K_ii),
-          factor.report().ordering,
-          factor.report().entries};
+  source.fixed_interface_hz = source.fixed_interface_hz(modes).eval();
+  basis.shapes = basis.shapes(Eigen::all, modes).eval();
+  source.M_rr = source.M_rr(kept, kept).eval();
+  source.K_rr = source.K_rr(kept, kept).eval();
 }
 
 }  // namespace
-
-StaticPart static_part(const PartitionedModel& part, const std::vector<int32_t>& kept,
-                       StepClock& clock, const rom::EliminationOrder& order) {
-  StaticPart out;
-  std::shared_ptr<const sparse::SupernodalFactor> own;
-  if (part.shared) {
-    out.factor_ii = part.shared->factor_interior();
-    out.order = part.shared->order();
-    out.order.entries = out.factor_ii->report().entries;
-  } else {
-    out.factor_ii = own = factorise_interior(part, order);
-    out.order = order_of(*own, part.K.ii);
-  }
-  clock.lap(fmt::format("factor of K_ii ({:.3g} entries{})", static_cast<double>(out.order.entries),
-                        out.order.method == "given" ? ", stored order" : ""));
-  const Eigen::MatrixXd& motions = part.free.q;
-  const RigidMotions rigid{motions(part.dofs.boundary, Eigen::all),
-                           motions(part.dofs.interior, Eigen::all)};
-  out.reduction = own ? reduce_statically(*own, part.K, part.M, rigid, kept)
-                      : reduce_by_solves(*out.factor_ii, part, rigid, kept);
-  clock.lap(fmt::format("{} constraint modes", part.dofs.boundary.size()));
-  return out;
-}
 
 CraigBampton craig_bampton(const PartitionedModel& part, const StaticPart& statics,
                            const ModeRequest& request, StepClock& clock) {
@@ -73,21 +38,42 @@ CraigBampton craig_bampton(const PartitionedModel& part, const StaticPart& stati
   out.rigid_error = statics.reduction.rigid_error;
   out.interior = interior_modes(part, factor, request, clock);
   out.fixed_interface_hz = out.interior.hz;
-  out.basis = ReducedBasis(statics.factor_ii, part.K.ib, part.team());
+  out.basis = ReducedBasis(part, statics.factor_ii);
   out.basis.shapes.swap(out.interior.vectors);
   out.interior.vectors.resize(0, 0);
   static_cast<ReducedMatrices&>(out) = project(part, statics.reduction, out.basis);
   clock.lap("reduced matrices");
   const bool guyan = request.count == 0 && request.fmax_hz == 0.0;
   const double target = guyan ? 0.0 : request.frequency_error;
-  if (target == 0.0 && !request.estimate_error) return out;
-  out.residual = add_residual_modes(out, factor, part, part.free.q(part.dofs.boundary, Eigen::all),
-                                    out.interior.accurate_to_hz, target);
-  const Eigen::Index shapes = out.fixed_interface_hz.size();
-  out.fixed_interface_hz.conservativeResize(shapes + out.residual.hz.size());
-  out.fixed_interface_hz.tail(out.residual.hz.size()) = out.residual.hz;
-  clock.lap(fmt::format("{} residual modes", out.residual.hz.size()));
+  if (target > 0.0 || request.estimate_error) {
+    out.residual =
+        add_residual_modes(out, factor, part, part.free.q(part.dofs.boundary, Eigen::all),
+                           out.interior.accurate_to_hz, target);
+    const Eigen::Index shapes = out.fixed_interface_hz.size();
+    out.fixed_interface_hz.conservativeResize(shapes + out.residual.hz.size());
+    out.fixed_interface_hz.tail(out.residual.hz.size()) = out.residual.hz;
+    clock.lap(fmt::format("{} residual modes", out.residual.hz.size()));
+  }
+  drop_dependent(out);
   return out;
+}
+
+std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, Eigen::Index protected_count,
+                                     double tolerance) {
+  const Eigen::Index r = M_rr.rows();
+  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(r, r);  // rows of the kept columns' Cholesky factor
+  std::vector<int> kept;
+  for (Eigen::Index j = 0; j < r; ++j) {
+    const auto rank = static_cast<Eigen::Index>(kept.size());
+    Eigen::VectorXd row = M_rr.col(j)(kept);
+    L.topLeftCorner(rank, rank).triangularView<Eigen::Lower>().solveInPlace(row);
+    const double left = M_rr(j, j) - row.squaredNorm();
+    if (j >= protected_count && left <= tolerance * M_rr(j, j)) continue;
+    L.row(rank).head(rank) = row.transpose();
+    L(rank, rank) = std::sqrt(std::max(left, 1e-300));
+    kept.push_back(static_cast<int>(j));
+  }
+  return kept;
 }
 
 }  // namespace clatter::condense

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The Craig-Bampton basis: constraint modes and fixed-interface modes from one factorisation.
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "condense/basis/interior_modes.hpp"
 #include "condense/basis/residual_modes.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/fe/free_motions.hpp"
-#include "core/rom/elimination_order.hpp"
 
 namespace clatter::condense {
 
@@ -20,21 +17,8 @@ struct CraigBampton : Reduction {
   ResidualReport residual;
   sparse::FactorReport factor;
   double rigid_error = 0.0;  // of the static shapes
+  int dropped = 0;           // vectors that depended on others (hard case B3)
 };
-
-/// Results for a boundary that do not depend on the modes added.
-struct StaticPart {
-  std::shared_ptr<const sparse::Factor> factor_ii;
-  StaticReduction reduction;
-  rom::EliminationOrder order;  // of K_ii
-};
-
-/// Factorises K_ii and reduces statically (Guyan 1965). Steps go to `clock`.
-/// @param kept interior DoFs whose rows of Psi are requested.
-/// @param order reused when it fits K_ii (hard case C7), instead of computing one.
-/// Throws NumericsError when K_ii is singular.
-StaticPart static_part(const PartitionedModel& part, const std::vector<int32_t>& kept,
-                       StepClock& clock, const rom::EliminationOrder& order = {});
 
 /// Basis of Craig and Bampton (1968): Psi_ib = -K_ii^{-1} K_ib with the shapes Phi_ik of
 /// interior_modes.hpp. One factorisation of K_ii serves both. Without modes (`request` empty) it is
@@ -42,5 +26,12 @@ StaticPart static_part(const PartitionedModel& part, const std::vector<int32_t>&
 /// modes. Throws NumericsError as solve_modes does.
 CraigBampton craig_bampton(const PartitionedModel& part, const StaticPart& statics,
                            const ModeRequest& request, StepClock& clock);
+
+/// Columns that do not depend on those before them: column j is kept when its remainder after
+/// projection on the kept ones exceeds `tolerance` of its own M-norm squared (hard case B3).
+/// The first `protected_count` columns are always kept. Ascending indices.
+/// @param M_rr r x r, the columns' Gram matrix in the mass inner product.
+std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, Eigen::Index protected_count,
+                                     double tolerance = 1e-12);
 
 }  // namespace clatter::condense

@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <numeric>
-
 #include "core/base/error.hpp"
 #include "core/dense/svd.hpp"
 #include "core/fe/dof_label.hpp"
@@ -48,45 +45,6 @@ DofPartition partition_dofs(const fe::FeModel& model, const std::vector<std::str
   return partition;
 }
 
-PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition& partition) {
-  const auto n = static_cast<size_t>(lower.cols());
-  const auto n_i = static_cast<int>(partition.interior.size());
-  const auto n_b = static_cast<int>(partition.boundary.size());
-  std::vector<int> block_index(n);
-  std::vector<char> is_boundary(n, 0);
-  for (int k = 0; k < n_i; ++k) block_index[static_cast<size_t>(partition.interior[k])] = k;
-  for (int k = 0; k < n_b; ++k) {
-    block_index[static_cast<size_t>(partition.boundary[k])] = k;
-    is_boundary[static_cast<size_t>(partition.boundary[k])] = 1;
-  }
-  std::vector<Eigen::Triplet<double>> ii, ib;
-  ii.reserve(static_cast<size_t>(lower.nonZeros()));
-  PartitionedMatrix blocks;
-  blocks.bb = Eigen::MatrixXd::Zero(n_b, n_b);
-  for (int j = 0; j < lower.outerSize(); ++j) {
-    const bool column_b = is_boundary[static_cast<size_t>(j)] != 0;
-    const int q = block_index[static_cast<size_t>(j)];
-    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
-      const bool row_b = is_boundary[static_cast<size_t>(it.row())] != 0;
-      const int p = block_index[static_cast<size_t>(it.row())];
-      if (row_b && column_b) {
-        blocks.bb(p, q) = blocks.bb(q, p) = it.value();
-      } else if (row_b) {
-        ib.emplace_back(q, p, it.value());
-      } else if (column_b) {
-        ib.emplace_back(p, q, it.value());
-      } else {
-        ii.emplace_back(p, q, it.value());  // ascending indices keep p >= q
-      }
-    }
-  }
-  blocks.ii.resize(n_i, n_i);
-  blocks.ii.setFromTriplets(ii.begin(), ii.end());
-  blocks.ib.resize(n_i, n_b);
-  blocks.ib.setFromTriplets(ib.begin(), ib.end());
-  return blocks;
-}
-
 void check_boundary_holds(const fe::FeModel& model, const DofPartition& partition,
                           const fe::FreeMotions& free) {
   if (free.count() == 0) return;
@@ -110,41 +68,6 @@ void check_boundary_holds(const fe::FeModel& model, const DofPartition& partitio
                   fe::motion_name(motion, fe::characteristic_length(model)),
                   fe::describe_dof(model, static_cast<int32_t>(most)),
                   free.bodies > 1 ? ", or join what is not connected" : ""));
-}
-
-PartitionedModel partition_model(const fe::FeModel& model,
-                                 const std::vector<std::string>& boundary) {
-  PartitionedModel part{model, partition_dofs(model, boundary), {},
-                        {},    fe::free_motions(model),         nullptr};
-  check_boundary_holds(model, part.dofs, part.free);
-  part.K = partition_matrix(model.K, part.dofs);
-  part.M = partition_matrix(model.M, part.dofs);
-  return part;
-}
-
-const sparse::RowTeam& PartitionedModel::team() const {
-  return shared ? shared->interior().team() : sparse::one_process();
-}
-
-std::shared_ptr<const sparse::MatrixPencil> PartitionedModel::interior() const {
-  if (shared) return {shared, &shared->interior()};
-  return std::make_shared<sparse::LocalPencil>(K.ii, M.ii);
-}
-
-std::shared_ptr<const sparse::MatrixPencil> PartitionedModel::whole() const {
-  if (shared) return {shared, &shared->whole()};
-  return std::make_shared<sparse::LocalPencil>(full.K, full.M);
-}
-
-std::vector<int32_t> PartitionedModel::interior_of_whole() const {
-  if (!shared) return dofs.interior;
-  std::vector<int32_t> first(dofs.interior.size());
-  std::iota(first.begin(), first.end(), 0);
-  return first;
-}
-
-Eigen::MatrixXd PartitionedModel::rows_of_whole(const Eigen::MatrixXd& all) const {
-  return shared ? Eigen::MatrixXd(all(shared->whole_dofs(), Eigen::all)) : all;
 }
 
 }  // namespace clatter::condense

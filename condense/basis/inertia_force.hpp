@@ -3,7 +3,6 @@
 // Inertia forces of a part whose frame accelerates, also where supports hold it in that frame.
 #include <Eigen/Core>
 
-#include "condense/basis/dof_partition.hpp"
 #include "condense/basis/reduced_basis.hpp"
 
 namespace clatter::condense {

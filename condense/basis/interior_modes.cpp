@@ -43,7 +43,7 @@ InteriorModes fixed_interface_modes(const PartitionedModel& part, const sparse::
   sparse::EigenOptions options = eigen_options(request);
   options.sigma = 0.0;  // K_ii itself is definite and already factorised
   if (guyan) options.count = 1;
-  sparse::ModeSet modes = sparse::solve_modes(*part.interior(), options, &factor_ii);
+  sparse::ModeSet modes = sparse::solve_modes(part.interior(), options, &factor_ii);
   InteriorModes out;
   take_report(modes, request, out);
   out.accurate_to_hz = 0.5 * out.cutoff_hz;
@@ -60,22 +60,21 @@ InteriorModes fixed_interface_modes(const PartitionedModel& part, const sparse::
 InteriorModes own_modes(const PartitionedModel& part, const sparse::Factor& factor_ii,
                         const ModeRequest& request) {
   const MatrixXd motions = part.rows_of_whole(part.free.q);
-  const auto whole = part.whole();
   sparse::EigenOptions options = eigen_options(request);
   options.rigid = motions;
   if (request.count > 0) options.count += static_cast<int>(motions.cols());
-  const sparse::ModeSet modes = sparse::solve_modes(*whole, options);
+  const sparse::ModeSet modes = sparse::solve_modes(part.whole(), options);
   InteriorModes out;
   take_report(modes, request, out);
   out.accurate_to_hz = out.cutoff_hz;
   out.own_modes = std::max(0, modes.size() - static_cast<int>(motions.cols()));
-  MatrixXd shapes(whole->rows(), motions.cols() + out.own_modes);
+  MatrixXd shapes(part.whole().rows(), motions.cols() + out.own_modes);
   shapes.leftCols(motions.cols()) = motions;
   shapes.rightCols(out.own_modes) = modes.vectors.rightCols(out.own_modes);
-  const MatrixXd inertia = *whole->mass({}) * shapes;
-  const MatrixXd force = inertia(part.interior_of_whole(), Eigen::all);
+  const MatrixXd inertia = *part.whole().mass({}) * shapes;
+  const MatrixXd force = inertia(part.interior_of_whole, Eigen::all);
   ShapeBasis basis =
-      shape_basis(factor_ii.solve(force), MatrixXd(force.rows(), 0), *part.interior());
+      shape_basis(factor_ii.solve(force), MatrixXd(force.rows(), 0), part.interior());
   if (!basis.dependent.empty())
     warn(fmt::format("{} of {} rigid and own modes depend on the static shapes and were dropped",
                      basis.dependent.size(), force.cols()));
@@ -107,7 +106,7 @@ MatrixXd interior_loads(const PartitionedModel& part, const std::vector<std::str
 void append_load_shapes(const MatrixXd& forces, const PartitionedModel& part,
                         const sparse::Factor& factor_ii, const std::vector<std::string>& names,
                         InteriorModes& out) {
-  const ShapeBasis basis = shape_basis(factor_ii.solve(forces), out.vectors, *part.interior());
+  const ShapeBasis basis = shape_basis(factor_ii.solve(forces), out.vectors, part.interior());
   std::vector<std::string> dropped;
   for (const int j : basis.dependent) dropped.push_back(names[static_cast<size_t>(j)]);
   if (!dropped.empty())

@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The shapes of the interior with the boundary held.
-#include <string>
-#include <vector>
-
-#include "condense/basis/dof_partition.hpp"
+#include "condense/basis/mode_request.hpp"
+#include "condense/basis/partitioned_model.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/sparse/eigen/eigen_solver.hpp"
 
 namespace clatter::condense {
-
-/// Which shapes. Exactly one of count and fmax_hz is positive; neither for Guyan. With
-/// accurate_to_hz alone cutoff_search.hpp finds fmax_hz.
-struct ModeRequest : sparse::EigenChoice {
-  int count = 0;
-  double fmax_hz = 0.0;
-  double accurate_to_hz = 0.0;  // limit of the requested frequencies of the body; 0: by the cut-off
-  bool own_modes = false;       // of the body itself instead of fixed-interface modes: Craig-Chang
-  std::vector<std::string> load_shapes;  // loads whose static response is in the basis
-  bool prove_count = true;
-  double frequency_error = 5e-4;  // aimed at by residual modes below accurate_to_hz; 0: none
-  bool estimate_error = true;     // of the frequencies, also without residual modes
-};
 
 /// The shapes X: X^T M_ii X = I, X^T K_ii X = diag((2 pi hz)^2).
 struct InteriorModes {

@@ -12,14 +12,14 @@ namespace clatter::condense {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-ReducedBasis::ReducedBasis(std::shared_ptr<const sparse::Factor> factor_ii, SparseMatrix K_ib,
-                           const sparse::RowTeam& team)
-    : factor_(std::move(factor_ii)), K_ib_(std::move(K_ib)), team_(&team) {
-  shapes.resize(K_ib_.rows(), 0);
+ReducedBasis::ReducedBasis(const PartitionedModel& part,
+                           std::shared_ptr<const sparse::Factor> factor_ii)
+    : part_(&part), factor_(std::move(factor_ii)) {
+  shapes.resize(part.K.ib.rows(), 0);
 }
 
 MatrixXd ReducedBasis::interior(const Eigen::Ref<const MatrixXd>& q) const {
-  const MatrixXd load = K_ib_ * q.topRows(boundary());
+  const MatrixXd load = part_->K.ib * q.topRows(boundary());
   MatrixXd u = -factor_->solve(load);
   sparse::add_product(1.0, shapes, q.bottomRows(shapes.cols()), u);
   return u;
@@ -34,15 +34,14 @@ MatrixXd ReducedBasis::project(const Eigen::Ref<const MatrixXd>& f_i,
                                const Eigen::Ref<const MatrixXd>& f_b) const {
   MatrixXd out(size(), f_i.cols());
   out.topRows(boundary()) = at_boundary(f_i, f_b);
-  out.bottomRows(shapes.cols()) = team_->sum(sparse::transposed_product(shapes, f_i));
+  out.bottomRows(shapes.cols()) = part_->team().sum(sparse::transposed_product(shapes, f_i));
   return out;
 }
 
 ReducedMatrices project(const PartitionedModel& part, const StaticReduction& statics,
                         const ReducedBasis& basis) {
   constexpr Index kBlock = 64;
-  const auto interior = part.interior();
-  const auto stiffness = interior->stiffness({}), mass = interior->mass({});
+  const auto stiffness = part.interior().stiffness({}), mass = part.interior().mass({});
   const sparse::RowTeam& team = part.team();
   const SparseMatrix M_bi = part.M.ib.transpose();
   const Index n_b = basis.boundary(), r = basis.size(), k = r - n_b;
@@ -65,30 +64,6 @@ ReducedMatrices project(const PartitionedModel& part, const StaticReduction& sta
   out.M_rr.triangularView<Eigen::StrictlyLower>() = out.M_rr.transpose();
   out.K_rr.triangularView<Eigen::StrictlyLower>() = out.K_rr.transpose();
   return out;
-}
-
-Eigen::VectorXd project_load(const Eigen::VectorXd& load, const DofPartition& partition,
-                             const ReducedBasis& basis) {
-  const MatrixXd interior = load(partition.interior), boundary = load(partition.boundary);
-  return basis.project(interior, boundary);
-}
-
-std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, Index protected_count,
-                                     double tolerance) {
-  const Eigen::Index r = M_rr.rows();
-  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(r, r);  // rows of the kept columns' Cholesky factor
-  std::vector<int> kept;
-  for (Eigen::Index j = 0; j < r; ++j) {
-    const auto rank = static_cast<Eigen::Index>(kept.size());
-    Eigen::VectorXd row = M_rr.col(j)(kept);
-    L.topLeftCorner(rank, rank).triangularView<Eigen::Lower>().solveInPlace(row);
-    const double left = M_rr(j, j) - row.squaredNorm();
-    if (j >= protected_count && left <= tolerance * M_rr(j, j)) continue;
-    L.row(rank).head(rank) = row.transpose();
-    L(rank, rank) = std::sqrt(std::max(left, 1e-300));
-    kept.push_back(static_cast<int>(j));
-  }
-  return kept;
 }
 
 }  // namespace clatter::condense

@@ -3,12 +3,10 @@
 // A reduction basis and the projection of the model's matrices on it.
 #include <Eigen/Core>
 #include <memory>
-#include <vector>
 
-#include "condense/basis/dof_partition.hpp"
+#include "condense/basis/partitioned_model.hpp"
 #include "condense/basis/static_reduction.hpp"
 #include "core/sparse/factor/factor.hpp"
-#include "core/sparse/row_team.hpp"
 
 namespace clatter::condense {
 
@@ -18,13 +16,12 @@ namespace clatter::condense {
 class ReducedBasis {
  public:
   ReducedBasis() = default;
-  /// @param K_ib n_i x n_b. @param team shares the rows of the interior.
-  ReducedBasis(std::shared_ptr<const sparse::Factor> factor_ii, SparseMatrix K_ib,
-               const sparse::RowTeam& team = sparse::one_process());
+  /// @param part must outlive this.
+  ReducedBasis(const PartitionedModel& part, std::shared_ptr<const sparse::Factor> factor_ii);
 
   Eigen::MatrixXd shapes;  // X, n_i x k
 
-  Eigen::Index boundary() const { return K_ib_.cols(); }
+  Eigen::Index boundary() const { return part_->K.ib.cols(); }
   Eigen::Index size() const { return boundary() + shapes.cols(); }
   /// Interior rows of V q; q is r x m.
   Eigen::MatrixXd interior(const Eigen::Ref<const Eigen::MatrixXd>& q) const;
@@ -36,9 +33,8 @@ class ReducedBasis {
                           const Eigen::Ref<const Eigen::MatrixXd>& f_b) const;
 
  private:
+  const PartitionedModel* part_ = nullptr;
   std::shared_ptr<const sparse::Factor> factor_;
-  SparseMatrix K_ib_;
-  const sparse::RowTeam* team_ = &sparse::one_process();
 };
 
 /// The matrices on the basis, eq. (14) of the paper.
@@ -50,16 +46,5 @@ struct ReducedMatrices {
 /// and X are orthogonal in K.
 ReducedMatrices project(const PartitionedModel& part, const StaticReduction& statics,
                         const ReducedBasis& basis);
-
-/// V^T f for a load f on all n DoFs of the model.
-Eigen::VectorXd project_load(const Eigen::VectorXd& load, const DofPartition& partition,
-                             const ReducedBasis& basis);
-
-/// Columns that do not depend on those before them: column j is kept when its remainder after
-/// projection on the kept ones exceeds `tolerance` of its own M-norm squared (hard case B3).
-/// The first `protected_count` columns are always kept. Ascending indices.
-/// @param M_rr r x r, the columns' Gram matrix in the mass inner product.
-std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, Eigen::Index protected_count,
-                                     double tolerance = 1e-12);
 
 }  // namespace clatter::condense

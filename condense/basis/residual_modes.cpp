@@ -52,8 +52,8 @@ class Correction {
         M_(part.M),
         motions_(motions),
         team_(part.team()),
-        K_ii_(part.interior()->stiffness({})),
-        M_ii_(part.interior()->mass({})) {
+        K_ii_(part.interior().stiffness({})),
+        M_ii_(part.interior().mass({})) {
     X_.resize(K_.ib.rows(), 0);
     border();
   }
@@ -76,7 +76,7 @@ class Correction {
   const PartitionedMatrix& M_;
   const MatrixXd& motions_;
   const sparse::RowTeam& team_;
-  std::unique_ptr<sparse::SymmetricOperator> K_ii_, M_ii_;
+  std::shared_ptr<const sparse::SymmetricOperator> K_ii_, M_ii_;
   MatrixXd X_;              // n_i x m
   MatrixXd K_rr_, M_rr_;    // bordered
   VectorXd pseudo_values_;  // of X

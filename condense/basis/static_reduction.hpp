@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "condense/basis/dof_partition.hpp"
-#include "core/base/matrix.hpp"
-#include "core/sparse/factor/supernodal_factor.hpp"
+#include "condense/basis/partitioned_model.hpp"
+#include "condense/basis/static_sweep.hpp"
+#include "core/base/stopwatch.hpp"
 
 namespace clatter::condense {
 
@@ -16,40 +16,38 @@ struct RigidMotions {
   Eigen::MatrixXd inside;       // n_i x m
 };
 
-/// The stored part of the constraint modes Psi_ib = -K_ii^{-1} K_ib (Guyan 1965; Craig and Bampton
-/// 1968, eq. 8).
-struct StaticReduction {
-  Eigen::MatrixXd K_bb, M_bb;  // of the basis [I; Psi], n_b x n_b
-  RowMatrix rows;              // Psi at the requested interior DoFs
-  double rigid_error = 0.0;    // |Psi r_b - r_i| / |r_i| of the plain solve
+/// The stiffness on the basis [I; Psi] as well.
+struct StaticReduction : StaticShapes {
+  Eigen::MatrixXd K_bb;      // n_b x n_b
+  double rigid_error = 0.0;  // |Psi r_b - r_i| / |r_i| of the plain solve
 };
 
-/// How the mass of the static shapes is summed: 2 n_i n_b^2 operations of the sweep against about
-/// two more eliminations.
-enum class StaticMass { kCheaper, kSweep, kElimination };
-
-/// One sweep from the root of the elimination tree to its leaves: the rows of Psi at a supernode
-/// follow from those above it on the path, so only the fronts of one path are in memory. Each row
-/// is used as soon as it is computed: M_bb += Psi_j^T (M_jj Psi_j / 2 + sum over the rows above
-/// M_rj Psi_r) + transpose, in panels at BLAS-3 speed. All columns at once, distributed to the
-/// threads. With many boundary coordinates M_bb is computed by elimination (schur_mass.hpp), and
-/// the sweep visits only the kept rows.
+/// The constraint modes, by a sweep where this process has all rows (static_sweep.hpp), else by
+/// solves, and K_bb = K.bb - K_bi K_ii^{-1} K_ib from the factor.
 ///
 /// Rounding in the solve would affect the mass properties: rows and M_bb are changed as little as
 /// possible so that they represent the rigid motions exactly.
-/// @param factor_ii of K.ii with the coupling K.ib. K_bb = K.bb - K_bi K_ii^{-1} K_ib follows from
-/// it.
-/// @param kept interior DoFs whose rows of Psi are requested.
-StaticReduction reduce_statically(const sparse::SupernodalFactor& factor_ii,
-                                  const PartitionedMatrix& K, const PartitionedMatrix& M,
+/// @param factor_ii of K_ii with the coupling K_ib. @param kept interior DoFs of this process whose
+/// rows of Psi are requested.
+StaticReduction reduce_statically(const PartitionedModel& part, const sparse::Factor& factor_ii,
                                   const RigidMotions& rigid, const std::vector<int32_t>& kept,
                                   StaticMass method = StaticMass::kCheaper);
 
-/// The same with a factor that gives only solutions: columns of Psi in blocks,
+/// With a factor that gives only solutions: columns of Psi in blocks,
 ///   M_bb = M_bb + M_bi Psi + Psi^T (M_ii Psi + M_ib),   Psi^T f = -K_bi K_ii^{-1} f,
-/// of which none is kept but the requested rows. For a team `kept` and the rows are those of this
-/// process.
-StaticReduction reduce_by_solves(const sparse::Factor& factor_ii, const PartitionedModel& part,
-                                 const RigidMotions& rigid, const std::vector<int32_t>& kept);
+/// of which none is kept but the requested rows.
+StaticShapes shapes_by_solves(const PartitionedModel& part, const sparse::Factor& factor_ii,
+                              const std::vector<int32_t>& kept);
+
+/// Results for a boundary that do not depend on the modes added.
+struct StaticPart : InteriorFactor {
+  StaticReduction reduction;
+};
+
+/// Factorises K_ii and reduces statically (Guyan 1965). Steps go to `clock`.
+/// @param kept interior DoFs whose rows of Psi are requested.
+/// Throws NumericsError when K_ii is singular.
+StaticPart static_part(const PartitionedModel& part, const std::vector<int32_t>& kept,
+                       StepClock& clock);
 
 }  // namespace clatter::condense

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "condense/basis/frame_inertia.hpp"
 #include "core/base/error.hpp"
 #include "core/dense/solve.hpp"
 #include "core/dense/symmetric_eigen.hpp"
@@ -22,7 +21,7 @@ constexpr double kRigidLimit = 1e-10;  // hard case B4
 /// R^T M R of the full model for rigid motions about `point`.
 Eigen::MatrixXd rigid_mass(const PartitionedModel& part, const Eigen::Vector3d& point) {
   const Eigen::MatrixXd rigid = rom::rigid_about(part.rows_of_whole(part.full.rigid), point);
-  return part.team().sum(rigid.transpose() * part.whole()->mass_times(rigid));
+  return part.team().sum(rigid.transpose() * part.whole().mass_times(rigid));
 }
 
 double scaled_condition(const Eigen::MatrixXd& M_rr) {
@@ -78,6 +77,32 @@ void certify_modes(rom::ReducedModel& reduced, const CraigBampton& source) {
   out.accurate_to_hz = interior.accurate_to_hz;
 }
 
+double difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
+  return (found - expected).norm() / expected.norm();
+}
+
+/// Largest relative deviation from the values that follow from the rigid motions r and M_rr: sum_k
+/// product_kk = M_rr; for a body whose six motions are free first_k = M_rr r_k, moment_lk -
+/// moment_kl = M_rr r_(3+j), and place against the mass properties.
+double inertia_error(const rom::ReducedModel& reduced, bool free_body) {
+  const rom::InertiaInvariants& found = reduced.inertia;
+  double error = difference(found.product[0] + found.product[4] + found.product[8], reduced.M_rr);
+  if (!free_body) return error;
+  const Eigen::MatrixXd momentum = reduced.M_rr * reduced.rigid;
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t l = (k + 1) % 3, j = (k + 2) % 3;  // a rotation about j moves k towards l
+    error = std::max(error, difference(found.first[k], momentum.col(static_cast<Eigen::Index>(k))));
+    error = std::max(error, difference(found.moment[3 * k + l] - found.moment[3 * l + k],
+                                       momentum.col(static_cast<Eigen::Index>(3 + j))));
+  }
+  // Of the mass matrix: a lumped one has more inertia than the cells.
+  const Eigen::Matrix3d about_origin =
+      reduced.rigid.rightCols(3).transpose() * momentum.rightCols(3);
+  const Eigen::Matrix3d place =
+      0.5 * about_origin.trace() * Eigen::Matrix3d::Identity() - about_origin;
+  return std::max(error, difference(found.place, place));
+}
+
 }  // namespace
 
 MassError compare_mass(const rom::MassProperties& found, const rom::MassProperties& expected) {
@@ -107,7 +132,7 @@ double clear_rigid_stiffness(rom::ReducedModel& reduced, const Eigen::MatrixXd& 
 }
 
 void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const CraigBampton& source,
-             const ReducedMotions& free, int dropped, bool spectrum) {
+             const Eigen::MatrixXd& motions, bool spectrum) {
   rom::ReducedCertificate& out = reduced.certificate;
   const Eigen::Vector3d centre =
       rom::properties_of(rigid_mass(part, Eigen::Vector3d::Zero())).centre;
@@ -115,21 +140,21 @@ void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const Cra
   const rom::MassProperties found =
       rom::properties_of(rigid.transpose() * reduced.M_rr * rigid, centre);
   const rom::MassProperties full = rom::properties_of(rigid_mass(part, centre), centre);
-  out.rigid_stiffness_residue = clear_rigid_stiffness(reduced, free.q);
+  out.rigid_stiffness_residue = clear_rigid_stiffness(reduced, motions);
   out.rigid_shape_error = source.rigid_error;
-  const bool free_body = free.all_free;  // a held body cannot move rigidly
+  const bool free_body = part.free.all_free();  // a held body cannot move rigidly
   if (free_body) {
     out.mass_error = compare_mass(found, full).largest();
     out.mass_error_elements = compare_mass(found, part.full.mass).largest();
   }
   out.certified = spectrum ? 1.0 : 0.0;
-  out.dropped_vectors = dropped + source.interior.dropped;
+  out.dropped_vectors = source.dropped + source.interior.dropped;
   out.K_ii_rcond = source.factor.rcond;
   out.K_ii_probe_residual = source.factor.probe_residual;
   if (!reduced.inertia.empty()) out.inertia_invariants_error = inertia_error(reduced, free_body);
   if (spectrum) {
     out.condition_M_rr = scaled_condition(reduced.M_rr);
-    certify_spectrum(reduced, free.q);
+    certify_spectrum(reduced, motions);
   }
   certify_modes(reduced, source);
   if (free_body && !(*out.mass_error <= kMassLimit)) {
@@ -145,12 +170,12 @@ void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const Cra
         *out.inertia_invariants_error, kMassLimit));
   }
   if (!(*out.rigid_stiffness_residue <= kRigidLimit) ||
-      (spectrum && out.rigid_modes != static_cast<double>(free.q.cols()))) {
+      (spectrum && out.rigid_modes != static_cast<double>(motions.cols()))) {
     throw NumericsError(fmt::format(
         "reduced model: {} rigid modes with stiffness residue {:.1e}, expected {} and at most "
         "{:.0e}",
         spectrum ? fmt::format("{}", *out.rigid_modes) : "uncounted", *out.rigid_stiffness_residue,
-        free.q.cols(), kRigidLimit));
+        motions.cols(), kRigidLimit));
   }
 }
 

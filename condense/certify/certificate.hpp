@@ -26,12 +26,6 @@ MassError compare_mass(const rom::MassProperties& found, const rom::MassProperti
 /// @param r the free motions in reduced coordinates, size x m.
 double clear_rigid_stiffness(rom::ReducedModel& reduced, const Eigen::MatrixXd& r);
 
-/// The free rigid motions of a reduced model.
-struct ReducedMotions {
-  Eigen::MatrixXd q;      // r x m
-  bool all_free = false;  // all six of each body
-};
-
 /// Fills `reduced.certificate` (core/rom/reduced_certificate.hpp) except for what record(),
 /// verify() and add_rows() add; rigid_stiffness_residue by clear_rigid_stiffness, which it calls.
 /// `spectrum` false omits the costly part, the spectrum of (K_rr, M_rr): no rigid_modes,
@@ -40,8 +34,9 @@ struct ReducedMotions {
 /// (frame_inertia.hpp), only AMLS eigen_frequency_error. accurate_to_hz is half of cutoff_hz, with
 /// own modes all of it; residual modes help the body's own modes alone, so that
 /// frequency_error_joined is the accuracy of a body joined to others (absent with own modes).
+/// @param motions the free rigid motions in reduced coordinates, r x m.
 /// Throws NumericsError when the reduction did not preserve the rigid motions or the mass.
 void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const CraigBampton& source,
-             const ReducedMotions& free, int dropped, bool spectrum);
+             const Eigen::MatrixXd& motions, bool spectrum);
 
 }  // namespace clatter::condense

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
     CommandLine program(
         kProgram, "clatter-condense by several processes, for parts that outgrow one.",
         "samples: mpirun -n 4 clatter-condense-mpi block.fe.h5 -c block.rom.toml -o block.rom.h5");
-    condense::declare_condense(program, condense::shared_reducer(all));
+    condense::declare_condense(program, condense::shared_source(all));
     return program.run_or_throw(argc, argv);
   });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The reduction of a part by all ranks of an MPI program.
+// The part of a reduction by all ranks of an MPI program.
 #include "condense/condense_command.hpp"
 #include "core/ranks/ranks.hpp"
 
@@ -11,6 +11,6 @@ namespace clatter::condense {
 inline constexpr int kFewestShared = 1500;
 
 /// By all ranks; rank 0 prints and writes. @param all must outlive the result.
-Reducer shared_reducer(const ranks::Ranks& all);
+PartSource shared_source(const ranks::Ranks& all);
 
 }  // namespace clatter::condense

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "condense/rows/recovery_rows.hpp"
 
-#include <numeric>
+#include <utility>
 
 #include "core/base/named.hpp"
 #include "core/base/threads.hpp"
@@ -50,25 +50,23 @@ SkinRecovery::SkinRecovery(const PartitionedModel& part, const std::vector<std::
 }
 
 void SkinRecovery::gather(const PartitionedModel& part, RowMatrix& static_rows,
-                          Eigen::MatrixXd& shapes) {
+                          RowMatrix& shape_rows) {
   const sparse::RowTeam& team = part.team();
   std::vector<int32_t> dofs;
   for (const int32_t k : unknowns_) dofs.push_back(part.dofs.interior[static_cast<size_t>(k)]);
-  dofs = team.gather(dofs);
-  shapes = team.gather(RowMatrix(shapes(unknowns_, Eigen::all)));
-  static_rows = team.gather(static_rows);
+  dofs = team.gather(std::move(dofs));
+  shape_rows = team.gather(std::move(shape_rows));
+  static_rows = team.gather(std::move(static_rows));
   if (team.rank() > 0) {
     faces_ = {};
     sets_.clear();
     return;
   }
-  unknowns_.resize(dofs.size());
-  std::iota(unknowns_.begin(), unknowns_.end(), 0);
   for (size_t k = 0; k < dofs.size(); ++k)
     row_[static_cast<size_t>(dofs[k])] = static_cast<int32_t>(k);
 }
 
-rom::Skin SkinRecovery::recover(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const {
+rom::Skin SkinRecovery::recover(const RowMatrix& static_rows, const RowMatrix& shape_rows) const {
   rom::Skin skin;
   if (faces_.points.empty()) return skin;
   skin.triangles = faces_.triangles;
@@ -80,7 +78,7 @@ rom::Skin SkinRecovery::recover(const RowMatrix& static_rows, const Eigen::Matri
     for (const auto& [node, weight] : faces_.points[static_cast<size_t>(p)])
       skin.nodes.row(p) += weight * model_.nodes.row(node);
   const RowSparse by_row = model_.T;
-  const Eigen::Index n_b = static_rows.cols(), k = shapes.cols();
+  const Eigen::Index n_b = static_rows.cols(), k = shape_rows.cols();
   skin.T = RowMatrix::Zero(3 * n, n_b + k);
   parallel_pieces(skin.T.rows(), [&](int64_t begin, int64_t end) {
     for (int64_t row = begin; row < end; ++row) {
@@ -90,9 +88,8 @@ rom::Skin SkinRecovery::recover(const RowMatrix& static_rows, const Eigen::Matri
           skin.T(row, boundary_[dof]) += factor;
           return;
         }
-        const auto at = static_cast<size_t>(row_[dof]);
         skin.T.row(row).head(n_b) += factor * static_rows.row(row_[dof]);
-        skin.T.row(row).tail(k) += factor * shapes.row(unknowns_[at]);
+        skin.T.row(row).tail(k) += factor * shape_rows.row(row_[dof]);
       });
     }
   });
@@ -100,10 +97,10 @@ rom::Skin SkinRecovery::recover(const RowMatrix& static_rows, const Eigen::Matri
 }
 
 RecoveredSets SkinRecovery::recover_sets(const RowMatrix& static_rows,
-                                         const Eigen::MatrixXd& shapes) const {
+                                         const RowMatrix& shape_rows) const {
   RecoveredSets recovered;
   Eigen::MatrixXd& combined = recovered.combined;
-  const Eigen::Index n_b = static_rows.cols(), r = n_b + shapes.cols();
+  const Eigen::Index n_b = static_rows.cols(), r = n_b + shape_rows.cols();
   for (const std::string& name : sets_) {
     rom::DofSet set = model_.sets.at(name);
     for (int32_t& dof : set.dofs) {
@@ -116,7 +113,7 @@ RecoveredSets SkinRecovery::recover_sets(const RowMatrix& static_rows,
       dof = static_cast<int32_t>(r + j);
       combined.conservativeResize(j + 1, r);
       combined.row(j).head(n_b) = static_rows.row(row_[at]);
-      combined.row(j).tail(shapes.cols()) = shapes.row(unknowns_[static_cast<size_t>(row_[at])]);
+      combined.row(j).tail(shape_rows.cols()) = shape_rows.row(row_[at]);
     }
     recovered.sets[name] = set;
     if (const auto grid = model_.grids.find(name); grid != model_.grids.end())

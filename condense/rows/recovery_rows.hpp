@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "condense/basis/dof_partition.hpp"
+#include "condense/basis/partitioned_model.hpp"
 #include "condense/rows/skin_faces.hpp"
 #include "core/rom/reduced_model.hpp"
 
@@ -30,21 +30,21 @@ class SkinRecovery {
   const std::vector<int32_t>& unknowns() const { return unknowns_; }
   /// Brings the rows of all processes to rank 0, where recover() and recover_sets() then work with
   /// them; elsewhere nothing is left to recover.
-  /// @param static_rows Psi at unknowns(); shapes X, n_i x k; both become those at the unknowns of
-  /// all processes.
-  void gather(const PartitionedModel& part, RowMatrix& static_rows, Eigen::MatrixXd& shapes);
+  /// @param static_rows Psi at unknowns(); shape_rows the same of X; both become those at the
+  /// unknowns of all processes.
+  void gather(const PartitionedModel& part, RowMatrix& static_rows, RowMatrix& shape_rows);
   /// The skin with T_skin = T(skin nodes, :) V.
-  /// @param static_rows Psi at unknowns(), rows x n_b; shapes X, n_i x k.
-  rom::Skin recover(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const;
+  /// @param static_rows rows x n_b and shape_rows rows x k, as gather() left them.
+  rom::Skin recover(const RowMatrix& static_rows, const RowMatrix& shape_rows) const;
   /// The sets with their displacements.
-  RecoveredSets recover_sets(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const;
+  RecoveredSets recover_sets(const RowMatrix& static_rows, const RowMatrix& shape_rows) const;
 
  private:
   const fe::FeModel& model_;
   std::vector<std::string> surfaces_, sets_;
   SkinFaces faces_;
   std::vector<int32_t> unknowns_;
-  std::vector<int32_t> row_;       // by DoF of the model: its index in unknowns_, or -1
+  std::vector<int32_t> row_;       // by DoF of the model: its row of Psi and X, or -1
   std::vector<int32_t> boundary_;  // by DoF of the model: its coordinate, or -1
 };
 

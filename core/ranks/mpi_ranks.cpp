@@ -118,7 +118,7 @@ void Ranks::agree(double* values, int64_t count) const {
             [&](int64_t at, int part) { MPI_Bcast(values + at, part, MPI_DOUBLE, 0, kAll); });
 }
 
-RowMatrix Ranks::gather(const RowMatrix& rows) const {
+RowMatrix Ranks::gather(RowMatrix rows) const {
   std::vector<std::vector<double>> out(static_cast<size_t>(size_));
   out[0].assign(rows.data(), rows.data() + rows.size());
   const std::vector<std::vector<double>> in = exchange(out);
@@ -129,9 +129,9 @@ RowMatrix Ranks::gather(const RowMatrix& rows) const {
   return Eigen::Map<const RowMatrix>(all.data(), count, columns);
 }
 
-std::vector<int32_t> Ranks::gather(const std::vector<int32_t>& values) const {
+std::vector<int32_t> Ranks::gather(std::vector<int32_t> values) const {
   std::vector<std::vector<int32_t>> out(static_cast<size_t>(size_));
-  out[0] = values;
+  out[0] = std::move(values);
   std::vector<int32_t> all;
   for (const auto& part : exchange(out)) all.insert(all.end(), part.begin(), part.end());
   return all;

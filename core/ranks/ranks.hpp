@@ -19,8 +19,8 @@ class Ranks : public sparse::RowTeam {
   void sum(double* values, int64_t count) const override;
   void least(double* values, int64_t count) const override;
   void agree(double* values, int64_t count) const override;
-  RowMatrix gather(const RowMatrix& rows) const override;
-  std::vector<int32_t> gather(const std::vector<int32_t>& values) const override;
+  RowMatrix gather(RowMatrix rows) const override;
+  std::vector<int32_t> gather(std::vector<int32_t> values) const override;
   using RowTeam::least;
   using RowTeam::sum;
 

@@ -15,9 +15,6 @@
 namespace clatter::ranks {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-
 [[noreturn]] void refuse_matrix(const std::filesystem::path& path, const std::string& group,
                                 const std::string& what) {
   throw InputError(fmt::format("{}: {}: {}", path.string(), group, what));
@@ -98,45 +95,12 @@ Entries read_entries(const Ranks& ranks, const std::filesystem::path& path,
   return sorted(ranks.exchange(out), shares, ranks.rank());
 }
 
-/// Places of the own rows.
-std::vector<int32_t> own_places(const Ranks& ranks, const RowShares& shares, const PartRows& rows) {
-  std::vector<int32_t> own;
-  for (const int64_t row : shares.rows_of(ranks.rank(), rows.extent == Extent::kWhole))
-    own.push_back(rows.places()[static_cast<size_t>(row)]);
-  return own;
-}
-
-/// The bodies of all ranks' entries.
-std::vector<int> bodies_of(const Ranks& ranks, const SharedMatrices& matrices,
-                           const PartRows& rows) {
-  const std::vector<int32_t>& places = rows.places();
-  const auto n = static_cast<Index>(places.size());
-  fe::DofUnion own(n);
-  for (const Entries* part : {&matrices.K, &matrices.M})
-    for (const Entry& entry : *part)
-      if (entry.value != 0.0 && entry.row < n && entry.column < n)
-        own.join(places[static_cast<size_t>(entry.row)], places[static_cast<size_t>(entry.column)]);
-  std::vector<std::vector<int32_t>> out(static_cast<size_t>(ranks.size()));
-  out[0] = own.roots();
-  fe::DofUnion all(n);
-  for (const std::vector<int32_t>& roots : ranks.exchange(out))
-    if (!roots.empty()) all.join_all(roots);
-  std::vector<int32_t> body;
-  if (ranks.rank() == 0) {
-    const std::vector<int> numbered = fe::numbered_sets(all);
-    body.assign(numbered.begin(), numbered.end());
-  }
-  ranks.share(body);
-  return {body.begin(), body.end()};
-}
-
-}  // namespace
-
+/// Nested dissection of the interior, computed by rank 0, which reads the pattern of K for it; or
+/// `known`, where it fits.
 Numbering number_dofs(const Ranks& ranks, const std::filesystem::path& path,
                       const std::vector<int32_t>& interior, const std::vector<int32_t>& boundary,
                       const rom::EliminationOrder& known) {
   Numbering out;
-  out.boundary = static_cast<int64_t>(boundary.size());
   if (ranks.rank() == 0) {
     const SparseMatrix pattern = fe::read_stiffness_pattern(path, interior, boundary).ii;
     out.stored = known;
@@ -160,29 +124,17 @@ Numbering number_dofs(const Ranks& ranks, const std::filesystem::path& path,
   return out;
 }
 
-SharedMatrices read_matrices(const Ranks& ranks, const std::filesystem::path& path,
-                             const Numbering& numbering, const RowShares& shares) {
-  return {read_entries(ranks, path, "K", numbering, shares),
-          read_entries(ranks, path, "M", numbering, shares)};
-}
+}  // namespace
 
-fe::FreeMotions free_motions(const Ranks& ranks, const SharedMatrices& matrices,
-                             const RowShares& shares, const PartRows& rows,
-                             const SharedPencil& pencil, const MatrixXd& rigid) {
-  const std::vector<int32_t> own = own_places(ranks, shares, rows);
-  const auto with = [&](const auto& product) {
-    return [&, product](const MatrixXd& x) {
-      MatrixXd all = MatrixXd::Zero(x.rows(), x.cols());
-      all(own, Eigen::all) = product(MatrixXd(x(own, Eigen::all)));
-      return ranks.sum(std::move(all));
-    };
-  };
-  return fe::free_motions(
-      fe::RigidProducts{bodies_of(ranks, matrices, rows),
-                        with([&](const MatrixXd& x) { return pencil.mass_times(x); }),
-                        with([&](const MatrixXd& x) { return pencil.stiffness_times(x); }),
-                        with([&](const MatrixXd& x) { return pencil.magnitude_times(x); })},
-      rigid);
-}
+SharedMatrices::SharedMatrices(const Ranks& all, const std::filesystem::path& path,
+                               const std::vector<int32_t>& interior,
+                               const std::vector<int32_t>& boundary,
+                               const rom::EliminationOrder& known)
+    : ranks(all),
+      numbering(number_dofs(all, path, interior, boundary, known)),
+      shares(static_cast<int64_t>(interior.size()), static_cast<int64_t>(boundary.size()),
+             all.size()),
+      K(read_entries(all, path, "K", numbering, shares)),
+      M(read_entries(all, path, "M", numbering, shares)) {}
 
 }  // namespace clatter::ranks

@@ -1,82 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/ranks/shared_pencil.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/base/error.hpp"
 #include "core/ranks/parpack.hpp"
 
 namespace clatter::ranks {
-namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// A matrix that the pencil keeps.
-class KeptMatrix : public sparse::SymmetricOperator {
- public:
-  explicit KeptMatrix(std::shared_ptr<const SharedMatrix> matrix) : matrix_(std::move(matrix)) {}
-  MatrixXd operator*(const Eigen::Ref<const MatrixXd>& x) const override { return *matrix_ * x; }
-  void multiply(const double* x, double* y, int count) const override {
-    matrix_->multiply(x, y, count);
-  }
-  Index size() const override { return matrix_->size(); }
-
- private:
-  std::shared_ptr<const SharedMatrix> matrix_;
-};
-
-}  // namespace
-
-SharedPencil::SharedPencil(const Ranks& ranks, const RowShares& shares, const Entries& K,
-                           const Entries& M, Extent extent)
-    : ranks_(ranks),
-      shares_(shares),
-      K_entries_(K),
-      M_entries_(M),
+SharedPencil::SharedPencil(const SharedMatrices& own, Extent extent)
+    : own_(own),
       extent_(extent),
-      K_(std::make_shared<SharedMatrix>(ranks, shares, K, extent == Extent::kWhole)),
-      M_(std::make_shared<SharedMatrix>(ranks, shares, M, extent == Extent::kWhole)) {}
+      K_(std::make_shared<SharedMatrix>(own.ranks, own.shares, own.K, extent == Extent::kWhole)),
+      M_(std::make_shared<SharedMatrix>(own.ranks, own.shares, own.M, extent == Extent::kWhole)) {}
 
 int64_t SharedPencil::size() const {
-  return extent_ == Extent::kWhole ? shares_.size() : shares_.interior();
-}
-
-sparse::PencilBounds SharedPencil::bounds() const {
-  sparse::PencilBounds out;
-  double massless = 0.0;
-  for (Index j = 0; j < rows(); ++j) {
-    if (M_->diagonal()[j] > 0.0)
-      out.top = std::max(out.top, K_->diagonal()[j] / M_->diagonal()[j]);
-    else
-      massless += 1.0;
-  }
-  out.top = -ranks_.least(-out.top);
-  out.massless = static_cast<int64_t>(ranks_.sum(massless));
-  return out;
-}
-
-double SharedPencil::default_shift() const {
-  RowMatrix ratio(rows(), 1);
-  Index count = 0;
-  for (Index j = 0; j < rows(); ++j)
-    if (M_->diagonal()[j] > 0.0) ratio(count++, 0) = K_->diagonal()[j] / M_->diagonal()[j];
-  RowMatrix all = ranks_.gather(RowMatrix(ratio.topRows(count)));
-  double shift = 0.0;
-  if (all.rows() > 0) {
-    double* median = all.data() + all.rows() / 2;
-    std::nth_element(all.data(), median, all.data() + all.rows());
-    shift = -0.1 * *median * std::pow(static_cast<double>(size()), -2.0 / 3.0);
-  }
-  ranks_.agree(&shift, 1);
-  return shift;
+  return extent_ == Extent::kWhole ? own_.shares.size() : own_.shares.interior();
 }
 
 std::unique_ptr<sparse::Factor> SharedPencil::probed(double sigma, Extent extent,
                                                      const sparse::FactorOptions& options) const {
-  auto made = std::make_unique<MumpsFactor>(
-      ranks_, shares_, ShiftedEntries{K_entries_, M_entries_, sigma}, extent, options);
+  auto made = std::make_unique<MumpsFactor>(own_.ranks, own_.shares,
+                                            ShiftedEntries{own_.K, own_.M, sigma}, extent, options);
   made->probe([&](const MatrixXd& x) -> MatrixXd { return *K_ * x - sigma * (*M_ * x); }, options);
   return made;
 }
@@ -92,21 +38,62 @@ std::unique_ptr<sparse::Factor> SharedPencil::factor_with_boundary() const {
 
 sparse::InertiaCount SharedPencil::count_below(double limit,
                                                const std::vector<int64_t>& /*order*/) const {
-  return ranks::count_below(ranks_, shares_, K_entries_, M_entries_, limit, extent_);
-}
-
-std::unique_ptr<sparse::SymmetricOperator> SharedPencil::stiffness(
-    const std::vector<int64_t>& /*order*/) const {
-  return std::make_unique<KeptMatrix>(K_);
-}
-
-std::unique_ptr<sparse::SymmetricOperator> SharedPencil::mass(
-    const std::vector<int64_t>& /*order*/) const {
-  return std::make_unique<KeptMatrix>(M_);
+  return ranks::count_below(own_.ranks, own_.shares, own_.K, own_.M, limit, extent_);
 }
 
 std::unique_ptr<sparse::ArpackRoutines> SharedPencil::arpack() const {
-  return std::make_unique<ParpackRoutines>(ranks_);
+  return std::make_unique<ParpackRoutines>(own_.ranks);
+}
+
+const std::vector<int32_t>& SharedPencil::places() const {
+  const Numbering& numbering = own_.numbering;
+  return extent_ == Extent::kWhole ? numbering.dof : numbering.stored.permutation;
+}
+
+std::vector<int32_t> SharedPencil::own_places() const {
+  std::vector<int32_t> own;
+  for (const int64_t row : own_.shares.rows_of(own_.ranks.rank(), extent_ == Extent::kWhole))
+    own.push_back(places()[static_cast<size_t>(row)]);
+  return own;
+}
+
+std::vector<int> SharedPencil::bodies() const {
+  const Ranks& ranks = own_.ranks;
+  const auto n = static_cast<Index>(places().size());
+  fe::DofUnion own(n);
+  for (const Entries* part : {&own_.K, &own_.M})
+    for (const Entry& entry : *part)
+      if (entry.value != 0.0 && entry.row < n && entry.column < n)
+        own.join(places()[static_cast<size_t>(entry.row)],
+                 places()[static_cast<size_t>(entry.column)]);
+  std::vector<std::vector<int32_t>> out(static_cast<size_t>(ranks.size()));
+  out[0] = own.roots();
+  fe::DofUnion all(n);
+  for (const std::vector<int32_t>& roots : ranks.exchange(out))
+    if (!roots.empty()) all.join_all(roots);
+  std::vector<int32_t> body;
+  if (ranks.rank() == 0) {
+    const std::vector<int> numbered = fe::numbered_sets(all);
+    body.assign(numbered.begin(), numbered.end());
+  }
+  ranks.share(body);
+  return {body.begin(), body.end()};
+}
+
+fe::FreeMotions SharedPencil::free_motions(const MatrixXd& rigid) const {
+  const std::vector<int32_t> own = own_places();
+  const auto with = [&](const auto& product) {
+    return [&, product](const MatrixXd& x) {
+      MatrixXd all = MatrixXd::Zero(x.rows(), x.cols());
+      all(own, Eigen::all) = product(MatrixXd(x(own, Eigen::all)));
+      return own_.ranks.sum(std::move(all));
+    };
+  };
+  return fe::free_motions(
+      fe::RigidProducts{bodies(), with([&](const MatrixXd& x) { return mass_times(x); }),
+                        with([&](const MatrixXd& x) { return stiffness_times(x); }),
+                        with([&](const MatrixXd& x) { return magnitude_times(x); })},
+      rigid);
 }
 
 }  // namespace clatter::ranks

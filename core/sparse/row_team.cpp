@@ -6,8 +6,17 @@ namespace clatter::sparse {
 void RowTeam::sum(double* /*values*/, int64_t /*count*/) const {}
 void RowTeam::least(double* /*values*/, int64_t /*count*/) const {}
 void RowTeam::agree(double* /*values*/, int64_t /*count*/) const {}
-RowMatrix RowTeam::gather(const RowMatrix& rows) const { return rows; }
-std::vector<int32_t> RowTeam::gather(const std::vector<int32_t>& values) const { return values; }
+RowMatrix RowTeam::gather(RowMatrix rows) const { return rows; }
+std::vector<int32_t> RowTeam::gather(std::vector<int32_t> values) const { return values; }
+
+Eigen::MatrixXd RowTeam::gather_at(const std::vector<int32_t>& places, const Eigen::MatrixXd& rows,
+                                   Eigen::Index size) const {
+  const std::vector<int32_t> at = gather(places);
+  const RowMatrix all = gather(RowMatrix(rows));
+  Eigen::MatrixXd out(size, rank() == 0 ? all.cols() : 0);
+  if (rank() == 0) out(at, Eigen::all) = all;
+  return out;
+}
 
 Eigen::MatrixXd RowTeam::sum(Eigen::MatrixXd part) const {
   sum(part.data(), part.size());

@@ -24,8 +24,11 @@ class RowTeam {
   /// values <- those of rank 0, so that all take the same decisions.
   virtual void agree(double* values, int64_t count) const;
   /// The rows of all processes, in their order, on rank 0; elsewhere none.
-  virtual RowMatrix gather(const RowMatrix& rows) const;
-  virtual std::vector<int32_t> gather(const std::vector<int32_t>& values) const;
+  virtual RowMatrix gather(RowMatrix rows) const;
+  virtual std::vector<int32_t> gather(std::vector<int32_t> values) const;
+  /// The same, `size` x m, with row k of this process at places[k]; elsewhere size x 0.
+  Eigen::MatrixXd gather_at(const std::vector<int32_t>& places, const Eigen::MatrixXd& rows,
+                            Eigen::Index size) const;
 
   Eigen::MatrixXd sum(Eigen::MatrixXd part) const;
   double sum(double part) const;

@@ -7,7 +7,6 @@
 
 #include "core/base/log.hpp"
 #include "core/ranks/rank_share.hpp"
-#include "core/ranks/shared_fe_model.hpp"
 #include "core/ranks/shared_pencil.hpp"
 
 namespace clatter::modal {
@@ -24,31 +23,18 @@ std::vector<int32_t> others(const std::vector<int32_t>& left, int size) {
 sparse::ModeSet solve_shared(const ranks::Ranks& all, const std::filesystem::path& path,
                              const fe::FeModel& model, const std::vector<int32_t>& left,
                              sparse::EigenOptions options) {
-  const ranks::Numbering numbering =
-      ranks::number_dofs(all, path, left, others(left, model.size()), {});
-  const ranks::RowShares shares(static_cast<int64_t>(left.size()), numbering.boundary, all.size());
-  const ranks::SharedMatrices matrices = ranks::read_matrices(all, path, numbering, shares);
-  const ranks::SharedPencil pencil(all, shares, matrices.K, matrices.M, ranks::Extent::kInterior);
-  std::vector<int32_t> own;  // places in `left` of the own rows
-  for (const int64_t row : shares.rows_of(all.rank(), false))
-    own.push_back(numbering.stored.permutation[row]);
+  const ranks::SharedMatrices matrices(all, path, left, others(left, model.size()), {});
+  const ranks::SharedPencil pencil(matrices, ranks::Extent::kInterior);
+  const std::vector<int32_t> own = pencil.own_places();
   // Matrices imported without positions have no known rigid-body motions.
-  if ((model.rigid.colwise().squaredNorm().array() > 0.0).all()) {
-    const fe::FreeMotions free =
-        ranks::free_motions(all, matrices, shares, {ranks::Extent::kInterior, numbering}, pencil,
-                            model.rigid(left, Eigen::all));
-    options.rigid = Eigen::MatrixXd(free.q(own, Eigen::all));
-  }
+  if ((model.rigid.colwise().squaredNorm().array() > 0.0).all())
+    options.rigid =
+        Eigen::MatrixXd(pencil.free_motions(model.rigid(left, Eigen::all)).q(own, Eigen::all));
   sparse::ModeSet modes = sparse::solve_modes(pencil, options);
-  const std::vector<int32_t> places = all.gather(own);
-  const RowMatrix rows = all.gather(RowMatrix(modes.vectors));
-  if (all.rank() > 0) {
-    modes = {};
-    modes.vectors.resize(static_cast<Eigen::Index>(left.size()), 0);
-    return modes;
-  }
-  modes.vectors.resize(rows.rows(), rows.cols());
-  modes.vectors(places, Eigen::all) = rows;
+  Eigen::MatrixXd vectors =
+      all.gather_at(own, modes.vectors, static_cast<Eigen::Index>(left.size()));
+  if (all.rank() > 0) modes = {};
+  modes.vectors = std::move(vectors);
   return modes;
 }
 

@@ -46,7 +46,7 @@ sparse::EigenResult reduced_modes(const rom::ReducedModel& reduced) {
 TEST(CraigBamptonTest, TheFourMassChainHasItsHandComputedMatrices) {
   // K = tridiag(-1, 2, -1) with last entry 1, M = diag(2, 2, 2, 1), boundary = last mass.
   const fe::FeModel model = test::held_chain();
-  const PartitionedModel part = partition_model(model, {"end"});
+  const LocalPart part(model, {"end"});
   ModeRequest request;
   request.count = 3;
   set_quiet(true);

@@ -58,7 +58,7 @@ TEST(CraigChang, TheChainKeepsItsHandComputedFrequencies) {
   // Four masses 2, 2, 2, 1 on unit springs, the first held to the ground: -x_(j-1) + 2 x_j -
   // x_(j+1) = 2 lambda x_j with a free end has lambda = 1 - cos((2 k - 1) pi / 8).
   const fe::FeModel model = test::held_chain();
-  const PartitionedModel part = partition_model(model, {"end"});
+  const LocalPart part(model, {"end"});
   ModeRequest request;
   request.count = 2;
   request.own_modes = true;

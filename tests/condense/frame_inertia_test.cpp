@@ -50,7 +50,7 @@ VectorXd random_vector(Eigen::Index size, double scale, unsigned seed) {
 
 /// The basis of `reduce_turning`, all DoFs in the model's order.
 MatrixXd full_basis(const fe::FeModel& model, const std::vector<std::string>& boundary, int count) {
-  const PartitionedModel part = partition_model(model, boundary);
+  const LocalPart part(model, boundary);
   ModeRequest request;
   request.count = count;
   request.frequency_error = 0.0;

@@ -41,7 +41,7 @@ TEST(HardB3, ARepeatedInterfaceDofGetsOneCoordinate) {
 
 TEST(HardB3, ADuplicatedModeIsDroppedAndTheAnswerStays) {
   const auto model = box_model();
-  const PartitionedModel part = partition_model(model, {"left", "right"});
+  const LocalPart part(model, {"left", "right"});
   ModeRequest request;
   request.count = 10;
   set_quiet(true);

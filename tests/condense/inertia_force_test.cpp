@@ -79,7 +79,7 @@ TEST(InertiaForce, OfAFreePartIsTheReducedMassTimesItsRigidMotions) {
   const fe::FeModel model = bar("");
   const rom::ReducedModel reduced = reduced_bar(model);
   EXPECT_EQ(reduced.inertia_force.rows(), 0);
-  const PartitionedModel part = partition_model(model, {"tip"});
+  const LocalPart part(model, {"tip"});
   ModeRequest request;
   request.count = 6;
   request.frequency_error = 0.0;

@@ -101,8 +101,19 @@ def folder_includes(stage):
     return edges
 
 
+def file_includes(stage):
+    """{file: {file that it includes: the include line}} inside a stage; a header and its source are one."""
+    edges = {}
+    for p in sources(stage):
+        file = str(p.relative_to(SOURCE).with_suffix(""))
+        for path in re.findall(rf'^\s*#\s*include\s+"({stage}/[\w/]+)\.hpp"', p.read_text(), re.M):
+            if path != file:
+                edges.setdefault(file, {}).setdefault(path, f"{p.relative_to(SOURCE)} includes {path}")
+    return edges
+
+
 def circle(edges):
-    """The include lines of one circle among folders, [] where there is none."""
+    """The include lines of one circle among folders or files, [] where there is none."""
     done = set()
 
     def search(folder, path):
@@ -156,6 +167,13 @@ class Arrows(unittest.TestCase):
         for stage in STAGES:
             with self.subTest(stage=stage):
                 self.assertEqual(circle(folder_includes(stage)), [])
+
+    def test_a_run_of_condense_or_modal_is_read_forward(self):
+        for stage in ("condense", "modal"):
+            with self.subTest(stage=stage):
+                edges = file_includes(stage)
+                self.assertGreater(len(edges), 10)
+                self.assertEqual(circle(edges), [])
 
     def test_a_circle_is_reported_by_its_include_lines(self):
         self.assertEqual(circle({"a": {"b": "a1 includes b"}, "b": {"c": "b1 includes c"}, "c": {"b": "c1 includes b"}}),

@@ -278,8 +278,8 @@ void Search::finish() {
   modes_.seconds = source_.seconds();
   const std::vector<int64_t>& order = source_.order();
   if (modes_.size() > 0) {
-    const std::unique_ptr<SymmetricOperator> stiffness = pencil_.stiffness(order);
-    std::unique_ptr<SymmetricOperator> own;
+    const auto stiffness = pencil_.stiffness(order);
+    std::shared_ptr<const SymmetricOperator> own;
     if (small()) own = pencil_.mass({});
     const SymmetricOperator& inertia = own ? *own : source_.mass();
     const auto measure = [&] {

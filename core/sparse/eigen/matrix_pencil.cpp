@@ -2,8 +2,8 @@
 #include "core/sparse/eigen/matrix_pencil.hpp"
 
 #include <algorithm>
+#include <cmath>
 
-#include "core/sparse/eigen/mode_values.hpp"
 #include "core/sparse/factor/supernodal_factor.hpp"
 
 namespace clatter::sparse {
@@ -11,31 +11,48 @@ namespace {
 
 constexpr double kLostShift = 2e-15;  // |sigma| over the highest eigenvalue: rounding level of K
 
-std::unique_ptr<SymmetricOperator> product_in(const std::vector<int64_t>& order,
-                                              const SparseMatrix& lower) {
-  if (order.empty()) return std::make_unique<SymmetricProduct>(lower);
-  return std::make_unique<SymmetricProduct>(reordered(lower, order));
+std::shared_ptr<const SymmetricOperator> product_in(const std::vector<int64_t>& order,
+                                                    const SparseMatrix& lower) {
+  if (order.empty()) return std::make_shared<SymmetricProduct>(lower);
+  return std::make_shared<SymmetricProduct>(reordered(lower, order));
 }
 
 }  // namespace
 
 double PencilBounds::smallest_shift() const { return kLostShift * top; }
 
-PencilBounds bounds_of(const SparseMatrix& K, const SparseMatrix& M) {
+PencilBounds MatrixPencil::bounds() const {
+  const auto [k, m] = diagonals();
   PencilBounds out;
-  for (int j = 0; j < K.cols(); ++j) {
-    const double m = M.coeff(j, j);
-    if (m > 0.0)
-      out.top = std::max(out.top, K.coeff(j, j) / m);
+  double massless = 0.0;
+  for (Eigen::Index j = 0; j < m.size(); ++j) {
+    if (m[j] > 0.0)
+      out.top = std::max(out.top, k[j] / m[j]);
     else
-      ++out.massless;
+      massless += 1.0;
   }
+  out.top = -team().least(-out.top);
+  out.massless = static_cast<int64_t>(team().sum(massless));
   return out;
 }
 
-PencilBounds LocalPencil::bounds() const { return bounds_of(own_.K, own_.M); }
-
-double LocalPencil::default_shift() const { return sparse::default_shift(own_.K, own_.M); }
+double MatrixPencil::default_shift() const {
+  const auto [k, m] = diagonals();
+  RowMatrix ratio(m.size(), 1);
+  Eigen::Index count = 0;
+  for (Eigen::Index j = 0; j < m.size(); ++j)
+    if (m[j] > 0.0) ratio(count++, 0) = k[j] / m[j];
+  RowMatrix all = team().gather(RowMatrix(ratio.topRows(count)));
+  double shift = 0.0;
+  if (all.rows() > 0) {
+    double* median = all.data() + all.rows() / 2;
+    std::nth_element(all.data(), median, all.data() + all.rows());
+    // A body of n DoFs is about n^(1/3) elements long.
+    shift = -0.1 * *median * std::pow(static_cast<double>(size()), -2.0 / 3.0);
+  }
+  team().agree(&shift, 1);
+  return shift;
+}
 
 std::unique_ptr<Factor> LocalPencil::factor(double sigma, const FactorOptions& options) const {
   return std::make_unique<SupernodalFactor>(SparseMatrix(own_.K - sigma * own_.M), options);
@@ -45,11 +62,13 @@ InertiaCount LocalPencil::count_below(double limit, const std::vector<int64_t>& 
   return sparse::count_below(own_.K, own_.M, limit, order);
 }
 
-std::unique_ptr<SymmetricOperator> LocalPencil::stiffness(const std::vector<int64_t>& order) const {
+std::shared_ptr<const SymmetricOperator> LocalPencil::stiffness(
+    const std::vector<int64_t>& order) const {
   return product_in(order, own_.K);
 }
 
-std::unique_ptr<SymmetricOperator> LocalPencil::mass(const std::vector<int64_t>& order) const {
+std::shared_ptr<const SymmetricOperator> LocalPencil::mass(
+    const std::vector<int64_t>& order) const {
   return product_in(order, own_.M);
 }
 

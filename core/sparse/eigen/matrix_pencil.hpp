@@ -3,6 +3,7 @@
 // K and M of an eigenproblem, held by this process alone or by a team.
 #include <Eigen/Core>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/base/sparse.hpp"
@@ -21,8 +22,6 @@ struct PencilBounds {
   double smallest_shift() const;  // |sigma| below which sigma M is lost in the rounding of K
 };
 
-PencilBounds bounds_of(const SparseMatrix& K, const SparseMatrix& M);
-
 /// Complete matrices of one process, n x n, symmetric, lower triangles.
 struct LocalMatrices {
   const SparseMatrix& K;  // [N/m]
@@ -37,16 +36,22 @@ class MatrixPencil {
   virtual int64_t size() const = 0;       // n, of the team
   virtual Eigen::Index rows() const = 0;  // of this process
   virtual const RowTeam& team() const = 0;
-  virtual PencilBounds bounds() const = 0;
-  /// A negative shift below the first elastic eigenvalue (mode_values.hpp).
-  virtual double default_shift() const = 0;
+  /// Diagonal entries of K and of M, rows() each.
+  virtual std::pair<Eigen::VectorXd, Eigen::VectorXd> diagonals() const = 0;
+  PencilBounds bounds() const;
+  /// A negative shift of about a tenth of the first elastic eigenvalue of a compact body, from the
+  /// median of K_jj / M_jj (the square of the highest frequency of an element) and the number of
+  /// unknowns. The quality of the guess affects only the speed.
+  double default_shift() const;
   /// Of K - sigma M. Throws NotPositiveDefinite, or NumericsError when it does not fit into memory.
   virtual std::unique_ptr<Factor> factor(double sigma, const FactorOptions& options) const = 0;
   /// Eigenvalues below a limit; `order` is a fill-reducing permutation, may be empty.
   virtual InertiaCount count_below(double limit, const std::vector<int64_t>& order) const = 0;
   /// Fast products in elimination order: row j is row order[j]; empty: unchanged.
-  virtual std::unique_ptr<SymmetricOperator> stiffness(const std::vector<int64_t>& order) const = 0;
-  virtual std::unique_ptr<SymmetricOperator> mass(const std::vector<int64_t>& order) const = 0;
+  virtual std::shared_ptr<const SymmetricOperator> stiffness(
+      const std::vector<int64_t>& order) const = 0;
+  virtual std::shared_ptr<const SymmetricOperator> mass(
+      const std::vector<int64_t>& order) const = 0;
   /// K x, M x and |K| |x| with entrywise magnitudes, for a few columns.
   virtual Eigen::MatrixXd stiffness_times(const Eigen::MatrixXd& x) const = 0;
   virtual Eigen::MatrixXd mass_times(const Eigen::MatrixXd& x) const = 0;
@@ -67,12 +72,14 @@ class LocalPencil : public MatrixPencil {
   int64_t size() const override { return own_.K.cols(); }
   Eigen::Index rows() const override { return own_.K.cols(); }
   const RowTeam& team() const override { return one_process(); }
-  PencilBounds bounds() const override;
-  double default_shift() const override;
+  std::pair<Eigen::VectorXd, Eigen::VectorXd> diagonals() const override {
+    return {own_.K.diagonal(), own_.M.diagonal()};
+  }
   std::unique_ptr<Factor> factor(double sigma, const FactorOptions& options) const override;
   InertiaCount count_below(double limit, const std::vector<int64_t>& order) const override;
-  std::unique_ptr<SymmetricOperator> stiffness(const std::vector<int64_t>& order) const override;
-  std::unique_ptr<SymmetricOperator> mass(const std::vector<int64_t>& order) const override;
+  std::shared_ptr<const SymmetricOperator> stiffness(
+      const std::vector<int64_t>& order) const override;
+  std::shared_ptr<const SymmetricOperator> mass(const std::vector<int64_t>& order) const override;
   Eigen::MatrixXd stiffness_times(const Eigen::MatrixXd& x) const override;
   Eigen::MatrixXd mass_times(const Eigen::MatrixXd& x) const override;
   Eigen::MatrixXd magnitude_times(const Eigen::MatrixXd& x) const override;
@@ -81,5 +88,10 @@ class LocalPencil : public MatrixPencil {
  private:
   LocalMatrices own_;
 };
+
+/// The default shift of matrices of this process.
+inline double default_shift(const SparseMatrix& K, const SparseMatrix& M) {
+  return LocalPencil(K, M).default_shift();
+}
 
 }  // namespace clatter::sparse

@@ -84,7 +84,7 @@ class ShiftedPencil {
   const Factor* given_ = nullptr;
   std::unique_ptr<Factor> own_;
   std::vector<int64_t> order_;
-  std::unique_ptr<SymmetricOperator> mass_;
+  std::shared_ptr<const SymmetricOperator> mass_;
   std::unique_ptr<KnownMotions> rigid_;
   ShiftInvert problem_, full_problem_;
   FactorReport report_;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "condense/basis/row_inertia.hpp"
+#include "condense/ranks/row_inertia.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "condense/basis/frame_inertia.hpp"
+#include "condense/basis/nodal_mass.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -13,13 +14,15 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using ranks::Entries;
+using ranks::Entry;
 
 /// Rows of this process in matrices of the nodal masses.
 class OwnRows {
  public:
-  explicit OwnRows(const PartitionedModel& part);
-  /// Own rows of T_k^T m T_l, by DoFs.
-  std::vector<DofEntry> of_product(const SparseMatrix& complete, size_t k, size_t l) const;
+  OwnRows(const PartitionedModel& part, const ranks::SharedMatrices& matrices);
+  /// Own rows of T_k^T m T_l.
+  Entries of_product(const SparseMatrix& complete, size_t k, size_t l) const;
   /// Own rows of T_k^T f.
   MatrixXd of_forces(const MatrixXd& f, size_t k) const { return own_[k].transpose() * f; }
   /// V^T f of own rows of f.
@@ -31,16 +34,20 @@ class OwnRows {
 
  private:
   const PartitionedModel& part_;
-  const std::vector<int32_t>& dofs_;
-  Index inside_;                     // own rows of the interior
-  std::vector<Index> boundary_;      // coordinates of the own boundary rows
-  std::array<SparseMatrix, 3> T_;    // n_nodes x n
-  std::array<SparseMatrix, 3> own_;  // n_nodes x own rows
+  const ranks::SharedMatrices& matrices_;
+  const std::vector<int32_t>& dofs_;   // of the own rows
+  const std::vector<int32_t>& index_;  // in elimination order
+  Index inside_;                       // own rows of the interior
+  std::vector<Index> boundary_;        // coordinates of the own boundary rows
+  std::array<SparseMatrix, 3> T_;      // n_nodes x n, in elimination order
+  std::array<SparseMatrix, 3> own_;    // n_nodes x own rows
 };
 
-OwnRows::OwnRows(const PartitionedModel& part)
+OwnRows::OwnRows(const PartitionedModel& part, const ranks::SharedMatrices& matrices)
     : part_(part),
-      dofs_(part.shared->whole_dofs()),
+      matrices_(matrices),
+      dofs_(part.whole_dofs),
+      index_(matrices.numbering.index),
       inside_(static_cast<Index>(part.dofs.interior.size())) {
   for (auto dof = dofs_.begin() + inside_; dof != dofs_.end(); ++dof)
     boundary_.push_back(std::find(part.dofs.boundary.begin(), part.dofs.boundary.end(), *dof) -
@@ -49,7 +56,7 @@ OwnRows::OwnRows(const PartitionedModel& part)
   std::array<std::vector<Eigen::Triplet<double>>, 3> all, own;
   for (int j = 0; j < T.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(T, j); it; ++it)
-      all[static_cast<size_t>(it.row() % 3)].emplace_back(it.row() / 3, j, it.value());
+      all[static_cast<size_t>(it.row() % 3)].emplace_back(it.row() / 3, index_[j], it.value());
   for (size_t k = 0; k < dofs_.size(); ++k)
     for (SparseMatrix::InnerIterator it(T, dofs_[k]); it; ++it)
       own[static_cast<size_t>(it.row() % 3)].emplace_back(it.row() / 3, static_cast<int>(k),
@@ -62,14 +69,15 @@ OwnRows::OwnRows(const PartitionedModel& part)
   }
 }
 
-std::vector<DofEntry> OwnRows::of_product(const SparseMatrix& complete, size_t k, size_t l) const {
+Entries OwnRows::of_product(const SparseMatrix& complete, size_t k, size_t l) const {
   const SparseMatrix left = (complete * own_[k]).eval().transpose();  // m is symmetric
-  const SparseMatrix rows = left * T_[l];
-  std::vector<DofEntry> out;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor, int32_t> rows = left * T_[l];
+  Entries out;
   out.reserve(static_cast<size_t>(rows.nonZeros()));
-  for (int j = 0; j < rows.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator it(rows, j); it; ++it)
-      out.emplace_back(dofs_[static_cast<size_t>(it.row())], j, it.value());
+  for (int i = 0; i < rows.outerSize(); ++i)
+    for (decltype(rows)::InnerIterator it(rows, i); it; ++it)
+      out.push_back({index_[static_cast<size_t>(dofs_[static_cast<size_t>(i)])],
+                     static_cast<int32_t>(it.col()), it.value()});
   return out;
 }
 
@@ -89,24 +97,23 @@ MatrixXd OwnRows::columns(const ReducedBasis& basis, Index first, Index count) c
 
 /// The masses between x displacements, lower triangle, complete on every process.
 SparseMatrix OwnRows::mass_without_directions() const {
-  RowMatrix own(0, 3);
-  std::vector<DofEntry> entries = part_.shared->mass_entries();
-  std::erase_if(entries, [](const DofEntry& e) {
-    return e.row() % 3 != 0 || e.col() % 3 != 0 || e.row() < e.col();
-  });
-  own.resize(static_cast<Index>(entries.size()), 3);
-  for (Index k = 0; k < own.rows(); ++k) {
-    const DofEntry& entry = entries[static_cast<size_t>(k)];
-    own.row(k) << entry.row(), entry.col(), entry.value();
+  const std::vector<int32_t>& dof = matrices_.numbering.dof;
+  std::vector<double> found;
+  for (const Entry& entry : matrices_.M) {
+    const int row = dof[static_cast<size_t>(entry.row)],
+              column = dof[static_cast<size_t>(entry.column)];
+    if (row % 3 == 0 && column % 3 == 0 && row >= column)
+      found.insert(found.end(), {row / 3.0, column / 3.0, entry.value});
   }
+  const RowMatrix own =
+      Eigen::Map<const RowMatrix>(found.data(), static_cast<Index>(found.size() / 3), 3);
   const auto count = static_cast<Index>(part_.team().sum(static_cast<double>(own.rows())));
   RowMatrix all = part_.team().gather(own);
   all.conservativeResize(count, 3);
   part_.team().agree(all.data(), all.size());
   std::vector<Eigen::Triplet<double>> masses;
   for (Index k = 0; k < count; ++k)
-    masses.emplace_back(static_cast<int>(all(k, 0)) / 3, static_cast<int>(all(k, 1)) / 3,
-                        all(k, 2));
+    masses.emplace_back(static_cast<int>(all(k, 0)), static_cast<int>(all(k, 1)), all(k, 2));
   SparseMatrix m(part_.full.size() / 3, part_.full.size() / 3);
   m.setFromTriplets(masses.begin(), masses.end());
   return m;
@@ -115,16 +122,15 @@ SparseMatrix OwnRows::mass_without_directions() const {
 /// Whether the own rows of T^T (m x I_3) T are those of M, on all processes.
 bool OwnRows::gives_back(const SparseMatrix& m) const {
   const SparseMatrix complete = m.selfadjointView<Eigen::Lower>();
-  std::vector<DofEntry> rest = part_.shared->mass_entries();
+  std::vector<Eigen::Triplet<double>> rest;
   double largest = 0.0, worst = 0.0;
-  for (DofEntry& entry : rest) {
-    largest = std::max(largest, std::abs(entry.value()));
-    entry = {entry.row(), entry.col(), -entry.value()};
+  for (const Entry& entry : matrices_.M) {
+    largest = std::max(largest, std::abs(entry.value));
+    rest.emplace_back(entry.row, entry.column, -entry.value);
   }
-  for (size_t k = 0; k < 3; ++k) {
-    const std::vector<DofEntry> found = of_product(complete, k, k);
-    rest.insert(rest.end(), found.begin(), found.end());
-  }
+  for (size_t k = 0; k < 3; ++k)
+    for (const Entry& entry : of_product(complete, k, k))
+      rest.emplace_back(entry.row, entry.column, entry.value);
   SparseMatrix sum(part_.full.size(), part_.full.size());
   sum.setFromTriplets(rest.begin(), rest.end());
   if (sum.nonZeros() > 0) worst = sum.coeffs().abs().maxCoeff();
@@ -133,10 +139,11 @@ bool OwnRows::gives_back(const SparseMatrix& m) const {
 
 }  // namespace
 
-rom::InertiaInvariants frame_inertia_of_rows(const PartitionedModel& part,
-                                             const ReducedBasis& basis) {
+rom::InertiaInvariants row_inertia(const PartitionedModel& part,
+                                   const ranks::SharedMatrices& matrices,
+                                   const ReducedBasis& basis) {
   constexpr Index kBlock = 64;
-  const OwnRows rows(part);
+  const OwnRows rows(part, matrices);
   const SparseMatrix m = nodal_mass(
       part.full, [&] { return rows.mass_without_directions(); },
       [&](const SparseMatrix& tried) { return rows.gives_back(tried); });
@@ -147,21 +154,22 @@ rom::InertiaInvariants frame_inertia_of_rows(const PartitionedModel& part,
   rom::InertiaInvariants out;
   out.place = part.full.nodes.transpose() * moments.leftCols(3);
   const Index r = basis.size();
-  std::vector<std::pair<size_t, RowProduct>> products;  // by place in out.product
+  std::vector<std::pair<size_t, ranks::SharedMatrix>> products;  // by place in out.product
   for (size_t k = 0; k < 3; ++k) {
     const MatrixXd projected = rows.project(basis, rows.of_forces(moments, k));
     out.first[k] = projected.col(3);
     for (size_t l = 0; l < 3; ++l) out.moment[3 * l + k] = projected.col(static_cast<Index>(l));
     for (size_t l = k; l < 3; ++l) {
       out.product[3 * k + l].resize(r, r);
-      products.emplace_back(3 * k + l, part.shared->product_with(rows.of_product(complete, k, l)));
+      products.emplace_back(3 * k + l, ranks::SharedMatrix(matrices.ranks, matrices.shares,
+                                                           rows.of_product(complete, k, l), true));
     }
   }
   for (Index begin = 0; begin < r; begin += kBlock) {
     const Index count = std::min(kBlock, r - begin);
     const MatrixXd V = rows.columns(basis, begin, count);
     for (const auto& [place, product] : products)
-      out.product[place].middleCols(begin, count) = rows.project(basis, product(V));
+      out.product[place].middleCols(begin, count) = rows.project(basis, product * V);
   }
   complete_products(out);
   return out;

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "condense/basis/local_part.hpp"
+
+#include <numeric>
+#include <utility>
+
+#include "condense/basis/frame_inertia.hpp"
+#include "core/sparse/factor/supernodal_factor.hpp"
+
+namespace clatter::condense {
+namespace {
+
+/// @param lower n x n, lower triangle.
+PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition& partition) {
+  const auto n = static_cast<size_t>(lower.cols());
+  const auto n_i = static_cast<int>(partition.interior.size());
+  const auto n_b = static_cast<int>(partition.boundary.size());
+  std::vector<int> block_index(n);
+  std::vector<char> is_boundary(n, 0);
+  for (int k = 0; k < n_i; ++k) block_index[static_cast<size_t>(partition.interior[k])] = k;
+  for (int k = 0; k < n_b; ++k) {
+    block_index[static_cast<size_t>(partition.boundary[k])] = k;
+    is_boundary[static_cast<size_t>(partition.boundary[k])] = 1;
+  }
+  std::vector<Eigen::Triplet<double>> ii, ib;
+  ii.reserve(static_cast<size_t>(lower.nonZeros()));
+  PartitionedMatrix blocks;
+  blocks.bb = Eigen::MatrixXd::Zero(n_b, n_b);
+  for (int j = 0; j < lower.outerSize(); ++j) {
+    const bool column_b = is_boundary[static_cast<size_t>(j)] != 0;
+    const int q = block_index[static_cast<size_t>(j)];
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
+      const bool row_b = is_boundary[static_cast<size_t>(it.row())] != 0;
+      const int p = block_index[static_cast<size_t>(it.row())];
+      if (row_b && column_b) {
+        blocks.bb(p, q) = blocks.bb(q, p) = it.value();
+      } else if (row_b) {
+        ib.emplace_back(q, p, it.value());
+      } else if (column_b) {
+        ib.emplace_back(p, q, it.value());
+      } else {
+        ii.emplace_back(p, q, it.value());  // ascending indices keep p >= q
+      }
+    }
+  }
+  blocks.ii.resize(n_i, n_i);
+  blocks.ii.setFromTriplets(ii.begin(), ii.end());
+  blocks.ib.resize(n_i, n_b);
+  blocks.ib.setFromTriplets(ib.begin(), ib.end());
+  return blocks;
+}
+
+}  // namespace
+
+LocalPart::LocalPart(const fe::FeModel& model, const std::vector<std::string>& boundary,
+                     rom::EliminationOrder known)
+    : PartitionedModel(model, boundary),
+      known_(std::move(known)),
+      interior_(K.ii, M.ii),
+      whole_(model.K, model.M) {
+  free = fe::free_motions(model);
+  check_boundary_holds(model, dofs, free);
+  K = partition_matrix(model.K, dofs);
+  M = partition_matrix(model.M, dofs);
+  whole_dofs.resize(static_cast<size_t>(model.size()));
+  std::iota(whole_dofs.begin(), whole_dofs.end(), 0);
+  interior_of_whole = dofs.interior;
+}
+
+InteriorFactor LocalPart::factor_interior() const {
+  sparse::FactorOptions options;
+  if (known_.fits(K.ii))
+    options.permutation.assign(known_.permutation.begin(), known_.permutation.end());
+  const auto factor = std::make_shared<sparse::SupernodalFactor>(K.ii, K.ib, options);
+  const std::vector<int64_t> permutation = factor->permutation();
+  return {factor,
+          {{permutation.begin(), permutation.end()},
+           rom::sha256_of_pattern(K.ii),
+           factor->report().ordering,
+           factor->report().entries}};
+}
+
+rom::InertiaInvariants LocalPart::inertia(const ReducedBasis& basis) const {
+  return frame_inertia(*this, basis);
+}
+
+}  // namespace clatter::condense
