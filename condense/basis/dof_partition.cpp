@@ -20,7 +20,7 @@ DofPartition partition_dofs(const fe::FeModel& model, const std::vector<std::str
     if (set.dofs.empty()) throw InputError(fmt::format("boundary: set \"{}\" is empty", name));
     for (size_t k = 0; k < set.dofs.size(); ++k) {
       const int32_t dof = set.dofs[k];
-      int32_t& here = coordinate[static_cast<size_t>(dof)];
+      int32_t& here = coordinate[dof];
       if (here >= 0) {
         partition.repeated.push_back(k < set.labels.size() ? set.labels[k] : name);
       } else {
@@ -37,7 +37,7 @@ DofPartition partition_dofs(const fe::FeModel& model, const std::vector<std::str
     throw InputError("boundary: found no set, expected the names of one or more");
   }
   for (int32_t dof = 0; dof < model.size(); ++dof) {
-    if (coordinate[static_cast<size_t>(dof)] < 0) partition.interior.push_back(dof);
+    if (coordinate[dof] < 0) partition.interior.push_back(dof);
   }
   if (partition.interior.empty()) {
     throw InputError("boundary: found every DoF, expected some interior ones");

@@ -90,7 +90,7 @@ MatrixXd interior_loads(const PartitionedModel& part, const std::vector<std::str
   const std::vector<int32_t>& interior = part.dofs.interior;
   MatrixXd forces(static_cast<Index>(interior.size()), static_cast<Index>(names.size()));
   for (Index j = 0; j < forces.cols(); ++j) {
-    const std::string& name = names[static_cast<size_t>(j)];
+    const std::string& name = names[j];
     const Eigen::VectorXd& load =
         find_named(model.loads, model.name + ": load_shapes", "load", name);
     if (model.prescribed.contains(name))
@@ -108,7 +108,7 @@ void append_load_shapes(const MatrixXd& forces, const PartitionedModel& part,
                         InteriorModes& out) {
   const ShapeBasis basis = shape_basis(factor_ii.solve(forces), out.vectors, part.interior());
   std::vector<std::string> dropped;
-  for (const int j : basis.dependent) dropped.push_back(names[static_cast<size_t>(j)]);
+  for (const int j : basis.dependent) dropped.push_back(names[j]);
   if (!dropped.empty())
     warn(fmt::format("load shapes that depend on other vectors were dropped: {}",
                      fmt::join(dropped, ", ")));

@@ -17,21 +17,21 @@ PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition
   const auto n_b = static_cast<int>(partition.boundary.size());
   std::vector<int> block_index(n);
   std::vector<char> is_boundary(n, 0);
-  for (int k = 0; k < n_i; ++k) block_index[static_cast<size_t>(partition.interior[k])] = k;
+  for (int k = 0; k < n_i; ++k) block_index[partition.interior[k]] = k;
   for (int k = 0; k < n_b; ++k) {
-    block_index[static_cast<size_t>(partition.boundary[k])] = k;
-    is_boundary[static_cast<size_t>(partition.boundary[k])] = 1;
+    block_index[partition.boundary[k]] = k;
+    is_boundary[partition.boundary[k]] = 1;
   }
   std::vector<Eigen::Triplet<double>> ii, ib;
-  ii.reserve(static_cast<size_t>(lower.nonZeros()));
+  ii.reserve(lower.nonZeros());
   PartitionedMatrix blocks;
   blocks.bb = Eigen::MatrixXd::Zero(n_b, n_b);
   for (int j = 0; j < lower.outerSize(); ++j) {
-    const bool column_b = is_boundary[static_cast<size_t>(j)] != 0;
-    const int q = block_index[static_cast<size_t>(j)];
+    const bool column_b = is_boundary[j] != 0;
+    const int q = block_index[j];
     for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
-      const bool row_b = is_boundary[static_cast<size_t>(it.row())] != 0;
-      const int p = block_index[static_cast<size_t>(it.row())];
+      const bool row_b = is_boundary[it.row()] != 0;
+      const int p = block_index[it.row()];
       if (row_b && column_b) {
         blocks.bb(p, q) = blocks.bb(q, p) = it.value();
       } else if (row_b) {
@@ -62,7 +62,7 @@ LocalPart::LocalPart(const fe::FeModel& model, const std::vector<std::string>& b
   check_boundary_holds(model, dofs, free);
   K = partition_matrix(model.K, dofs);
   M = partition_matrix(model.M, dofs);
-  whole_dofs.resize(static_cast<size_t>(model.size()));
+  whole_dofs.resize(model.size());
   std::iota(whole_dofs.begin(), whole_dofs.end(), 0);
   interior_of_whole = dofs.interior;
 }

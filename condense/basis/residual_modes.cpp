@@ -176,10 +176,10 @@ ResidualReport add_residual_modes(Reduction& reduction, const sparse::Factor& fa
     report.error_estimate = error.size() > 0 ? error.maxCoeff() : 0.0;
     if (pass == 0) report.error_before = report.error_estimate;
     if (target <= 0.0 || report.error_estimate <= target || pass == kPasses) break;
-    corrected.resize(static_cast<size_t>(error.size()), 0);
+    corrected.resize(error.size(), 0);
     std::vector<Index> chosen;
     for (Index j = 0; j < error.size(); ++j) {
-      char& once = corrected[static_cast<size_t>(j)];
+      char& once = corrected[j];
       if (error[j] > 0.01 * target) once = 1;
       if (once != 0) chosen.push_back(j);
     }

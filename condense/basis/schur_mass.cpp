@@ -32,7 +32,7 @@ Eigen::MatrixXd schur_mass(const sparse::SupernodalFactor& factor_ii, const Spar
                            const SparseMatrix& M_ib) {
   const sparse::SupernodeTree& tree = factor_ii.tree();
   const sparse::FrontKernel kernel = [&](int32_t s, const sparse::Front& front) {
-    carry_mass(front, factor_ii.view().panels + tree.panel_start[static_cast<size_t>(s)]);
+    carry_mass(front, factor_ii.view().panels + tree.panel_start[s]);
   };
   Eigen::MatrixXd out(tree.boundary, tree.boundary);
   eliminate(tree, sparse::permuted(tree, M_ii, factor_ii.scale(), M_ib), kernel, nullptr, &out);

@@ -51,10 +51,8 @@ InteriorFactor factorised(const PartitionedModel& part) {
     return part.factor_interior();
   } catch (const sparse::NotPositiveDefinite& error) {
     const std::string where =
-        error.column < 0
-            ? std::string{}
-            : ", at " + fe::describe_dof(part.full,
-                                         part.dofs.interior[static_cast<size_t>(error.column)]);
+        error.column < 0 ? std::string{}
+                         : ", at " + fe::describe_dof(part.full, part.dofs.interior[error.column]);
     throw sparse::NotPositiveDefinite(
         fmt::format("the boundary does not hold the body: K_ii {}{}; add a set to the boundary, or "
                     "look for a part of the mesh that is not connected",

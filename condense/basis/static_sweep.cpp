@@ -59,20 +59,18 @@ Sweep::Sweep(const sparse::SupernodalFactor& factor, const PartitionedMatrix& M,
       with_mass_(with_mass),
       n_b_(tree_.boundary) {
   std::vector<int32_t> by_unknown(static_cast<size_t>(tree_.size), -1);
-  for (size_t k = 0; k < kept.size(); ++k)
-    by_unknown[static_cast<size_t>(kept[k])] = static_cast<int32_t>(k);
-  for (size_t j = 0; j < kept_at_.size(); ++j)
-    kept_at_[j] = by_unknown[static_cast<size_t>(tree_.order[j])];
+  for (size_t k = 0; k < kept.size(); ++k) by_unknown[kept[k]] = static_cast<int32_t>(k);
+  for (size_t j = 0; j < kept_at_.size(); ++j) kept_at_[j] = by_unknown[tree_.order[j]];
   for (int32_t s = 0; s < tree_.supernodes(); ++s) {
     panel_rows_ = std::max<Index>(panel_rows_, tree_.columns(s));
-    char& used = used_[static_cast<size_t>(s)];
-    const auto begin = kept_at_.begin() + tree_.first[static_cast<size_t>(s)];
+    char& used = used_[s];
+    const auto begin = kept_at_.begin() + tree_.first[s];
     if (std::any_of(begin, begin + tree_.columns(s), [](int32_t row) { return row >= 0; }))
       used = 1;
-    const int32_t parent = tree_.parent[static_cast<size_t>(s)];
+    const int32_t parent = tree_.parent[s];
     if (used == 0 || parent < 0) continue;
-    used_[static_cast<size_t>(parent)] = 1;
-    ++children_[static_cast<size_t>(parent)];
+    used_[parent] = 1;
+    ++children_[parent];
   }
   rows.resize(static_cast<Index>(kept.size()), n_b_);
   panel_.resize(panel_rows_, n_b_);
@@ -97,7 +95,7 @@ class Worker {
 
   void run(Progress* progress) {
     for (int32_t s = tree_.supernodes() - 1; s >= 0; --s) {
-      if (shared_.used_[static_cast<size_t>(s)] == 0) continue;
+      if (shared_.used_[s] == 0) continue;
       if (filled_ + tree_.columns(s) > shared_.panel_rows_) use_panel();
       visit(s);
       filled_ += tree_.columns(s);
@@ -107,7 +105,7 @@ class Worker {
   }
 
  private:
-  int32_t first(int32_t s) const { return tree_.first[static_cast<size_t>(s)]; }
+  int32_t first(int32_t s) const { return tree_.first[s]; }
   void visit(int32_t s);
   void take_rows_above(int32_t s, double* front);
   void solve_own_rows(int32_t s, double* front) const;
@@ -135,8 +133,8 @@ void Worker::visit(int32_t s) {
   solve_own_rows(s, front.data.get());
   write_panel(s, front.data.get());
   release_parent(s);
-  if (left_[static_cast<size_t>(s)] > 0) {
-    fronts_[static_cast<size_t>(s)] = std::move(front);
+  if (left_[s] > 0) {
+    fronts_[s] = std::move(front);
   } else {
     pool_.give(std::move(front));
   }
@@ -144,10 +142,10 @@ void Worker::visit(int32_t s) {
 
 /// Rows below the own ones: from the parent's front, or unit rows on the boundary.
 void Worker::take_rows_above(int32_t s, double* front) {
-  const int32_t parent = tree_.parent[static_cast<size_t>(s)];
+  const int32_t parent = tree_.parent[s];
   const int32_t* rows = tree_.rows_of(s);
   const int32_t* above = parent >= 0 ? tree_.rows_of(parent) : nullptr;
-  const double* source = parent >= 0 ? fronts_[static_cast<size_t>(parent)].data.get() : nullptr;
+  const double* source = parent >= 0 ? fronts_[parent].data.get() : nullptr;
   Index at = 0;
   for (Index k = tree_.columns(s); k < tree_.height(s); ++k) {
     double* row = front + k * width_;
@@ -166,7 +164,7 @@ void Worker::take_rows_above(int32_t s, double* front) {
 void Worker::solve_own_rows(int32_t s, double* front) const {
   const int p = tree_.columns(s), q = tree_.below(s), h = tree_.height(s),
             w = sparse::blas_size(width_);
-  const double* L = shared_.factor_.view().panels + tree_.panel_start[static_cast<size_t>(s)];
+  const double* L = shared_.factor_.view().panels + tree_.panel_start[s];
   if (q == 0) {
     std::fill_n(front, p * width_, 0.0);
     return;
@@ -180,7 +178,7 @@ void Worker::solve_own_rows(int32_t s, double* front) const {
 /// The own rows and, from the columns of M, their half of M z.
 void Worker::write_panel(int32_t s, const double* front) {
   const int32_t* rows = tree_.rows_of(s);
-  for (int32_t k = 0; k < tree_.height(s); ++k) local_[static_cast<size_t>(rows[k])] = k;
+  for (int32_t k = 0; k < tree_.height(s); ++k) local_[rows[k]] = k;
   for (int32_t j = 0; j < tree_.columns(s); ++j) {
     const int32_t index = first(s) + j;
     const double* z = front + j * width_;
@@ -190,20 +188,19 @@ void Worker::write_panel(int32_t s, const double* front) {
     double* image = &shared_.image_(filled_ + j, begin_);
     std::fill_n(image, width_, 0.0);
     const auto& mass = shared_.mass_;
-    for (int64_t k = mass.starts[static_cast<size_t>(index)];
-         k < mass.starts[static_cast<size_t>(index) + 1]; ++k) {
-      const int32_t row = mass.rows[static_cast<size_t>(k)];
-      const double m = mass.values[static_cast<size_t>(k)] * (row == index ? 0.5 : 1.0);
-      const double* other = front + local_[static_cast<size_t>(row)] * width_;
+    for (int64_t k = mass.starts[index]; k < mass.starts[static_cast<size_t>(index) + 1]; ++k) {
+      const int32_t row = mass.rows[k];
+      const double m = mass.values[k] * (row == index ? 0.5 : 1.0);
+      const double* other = front + local_[row] * width_;
       for (Index c = 0; c < width_; ++c) image[c] += m * other[c];
     }
   }
 }
 
 void Worker::release_parent(int32_t s) {
-  const int32_t parent = tree_.parent[static_cast<size_t>(s)];
-  if (parent < 0 || --left_[static_cast<size_t>(parent)] > 0) return;
-  pool_.give(std::move(fronts_[static_cast<size_t>(parent)]));
+  const int32_t parent = tree_.parent[s];
+  if (parent < 0 || --left_[parent] > 0) return;
+  pool_.give(std::move(fronts_[parent]));
 }
 
 void Worker::use_panel() {
@@ -223,11 +220,10 @@ void Worker::use_panel() {
 void Worker::keep_rows() const {
   const auto& scale = shared_.factor_.scale();
   for (Index k = 0; k < filled_; ++k) {
-    const auto index = static_cast<size_t>(indices_[static_cast<size_t>(k)]);
+    const auto index = static_cast<size_t>(indices_[k]);
     if (shared_.kept_at_[index] < 0) continue;
     shared_.rows.row(shared_.kept_at_[index]).segment(begin_, width_) =
-        scale[static_cast<size_t>(tree_.order[index])] *
-        shared_.panel_.row(k).segment(begin_, width_);
+        scale[tree_.order[index]] * shared_.panel_.row(k).segment(begin_, width_);
   }
 }
 
@@ -251,10 +247,9 @@ double path_entries(const sparse::SupernodeTree& tree) {
   std::vector<double> above(tree.parent.size(), 0.0);
   double most = 0.0;
   for (int32_t s = tree.supernodes() - 1; s >= 0; --s) {
-    const int32_t parent = tree.parent[static_cast<size_t>(s)];
-    double& path = above[static_cast<size_t>(s)];
-    path = static_cast<double>(tree.height(s)) +
-           (parent >= 0 ? above[static_cast<size_t>(parent)] : 0.0);
+    const int32_t parent = tree.parent[s];
+    double& path = above[s];
+    path = static_cast<double>(tree.height(s)) + (parent >= 0 ? above[parent] : 0.0);
     most = std::max(most, path);
   }
   return most * static_cast<double>(tree.boundary);

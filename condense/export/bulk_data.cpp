@@ -107,14 +107,14 @@ void write_dmig(std::ostream& out, const std::string& name, const Eigen::MatrixX
                 const ExportedPart& part) {
   out << fmt::format("DMIG    {:<8}{:<8}{:<8}{:<8}\n", name, 0, 6, 2);
   for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-    const rom::MappedDof& column = part.map[static_cast<size_t>(j)];
+    const rom::MappedDof& column = part.map[j];
     bool begun = false;
     for (Eigen::Index i = j; i < matrix.rows(); ++i) {
       if (std::abs(matrix(i, j)) < kSmallest) continue;
       if (!begun)
         out << fmt::format("DMIG*   {:<16}{:<16}{:<16}\n", name, column.node, column.component);
       begun = true;
-      const rom::MappedDof& row = part.map[static_cast<size_t>(i)];
+      const rom::MappedDof& row = part.map[i];
       out << fmt::format("*       {:<16}{:<16}{:<16}\n", row.node, row.component,
                          nastran_number(matrix(i, j)));
     }

@@ -58,8 +58,7 @@ void write_matrix(const std::filesystem::path& path, const Eigen::MatrixXd& matr
   for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
     for (Eigen::Index i = j; i < matrix.rows(); ++i) {
       if (matrix(i, j) == 0.0) continue;
-      const NodeComponent &row = dofs[static_cast<size_t>(i)],
-                          &column = dofs[static_cast<size_t>(j)];
+      const NodeComponent &row = dofs[i], &column = dofs[j];
       file.stream() << fmt::format("{},{},{},{},{:.16e}\n", row.node, row.component, column.node,
                                    column.component, matrix(i, j));
     }
@@ -140,7 +139,7 @@ void write_equations(std::ostream& out, const rom::ReducedModel& model, const Ei
                      const Numbers& numbers) {
   const int first = numbers.mode_node;
   for (int i = 0; i < model.n_boundary; ++i) {
-    const NodeComponent& dof = numbers.dofs[static_cast<size_t>(i)];
+    const NodeComponent& dof = numbers.dofs[i];
     out << fmt::format("*EQUATION\n{}\n{},{},-1.\n", Phi.cols() + 1, dof.node, dof.component);
     for (int j = 0; j < Phi.cols(); ++j)
       out << fmt::format("{},{},{:.12e}\n", first + j / 3, j % 3 + 1, Phi(i, j));

@@ -27,8 +27,8 @@ Mesh mesh_of(const ExportedPart& part, const PencilModes& modes) {
   mesh.position.resize(3 * (n + skin.nodes.rows()));
   mesh.modes.resize(mesh.position.size(), modes.Phi.cols());
   for (Eigen::Index a = 0; a < n; ++a) {
-    mesh.position.segment<3>(3 * a) = nodes[static_cast<size_t>(a)].position;
-    mesh.modes.middleRows<3>(3 * a) = nodes[static_cast<size_t>(a)].shape.topRows<3>();
+    mesh.position.segment<3>(3 * a) = nodes[a].position;
+    mesh.modes.middleRows<3>(3 * a) = nodes[a].shape.topRows<3>();
   }
   if (skin.nodes.rows() == 0) return mesh;
   mesh.position.tail(skin.nodes.size()) =

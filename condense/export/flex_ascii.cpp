@@ -25,9 +25,9 @@ using Eigen::MatrixXd;
 std::array<Index, 6> six_of(const rom::DofSet& set, const std::vector<rom::MappedDof>& map) {
   std::array<Index, 6> six{-1, -1, -1, -1, -1, -1};
   for (size_t k = 0; k < set.dofs.size(); ++k) {
-    const int component = map[static_cast<size_t>(set.dofs[k])].component;
+    const int component = map[set.dofs[k]].component;
     const bool here = set.position.row(static_cast<Index>(k)) == set.position.row(0);
-    if (component > 0 && here) six[static_cast<size_t>(component - 1)] = set.dofs[k];
+    if (component > 0 && here) six[component - 1] = set.dofs[k];
   }
   return six;
 }
@@ -61,7 +61,7 @@ MatrixXd craig_bampton_of(const rom::ReducedModel& model, const std::array<Index
     if (std::find(six.begin(), six.end(), j) == six.end()) rest.push_back(j);
   const auto n = static_cast<Index>(rest.size());
   MatrixXd W = MatrixXd::Zero(model.size(), 6 + n);
-  for (Index d = 0; d < 6; ++d) W(six[static_cast<size_t>(d)], d) = 1.0;
+  for (Index d = 0; d < 6; ++d) W(six[d], d) = 1.0;
   if (n == 0) return W;
   const MatrixXd K_ii = model.K_rr(rest, rest), M_ii = model.M_rr(rest, rest);
   const dense::Cholesky factor(K_ii);

@@ -10,14 +10,14 @@ namespace clatter::condense {
 Eigen::Matrix3d FloatingFrame::moment(Eigen::Index k) const {
   Eigen::Matrix3d S;
   for (int l = 0; l < 3; ++l)
-    for (int m = 0; m < 3; ++m) S(l, m) = invariants.moment[static_cast<size_t>(3 * l + m)][k];
+    for (int m = 0; m < 3; ++m) S(l, m) = invariants.moment[3 * l + m][k];
   return S;
 }
 
 Eigen::Matrix3d FloatingFrame::product(Eigen::Index k, Eigen::Index i) const {
   Eigen::Matrix3d P;
   for (int l = 0; l < 3; ++l)
-    for (int m = 0; m < 3; ++m) P(l, m) = invariants.product[static_cast<size_t>(3 * l + m)](k, i);
+    for (int m = 0; m < 3; ++m) P(l, m) = invariants.product[3 * l + m](k, i);
   return P;
 }
 
@@ -36,8 +36,7 @@ FloatingFrame floating_frame(const ExportedPart& part, const PencilModes& modes,
   const Eigen::Matrix3d& place = frame.invariants.place;
   frame.inertia = place.trace() * Eigen::Matrix3d::Identity() - place;
   frame.first.resize(3, modes.Phi.cols());
-  for (int d = 0; d < 3; ++d)
-    frame.first.row(d) = frame.invariants.first[static_cast<size_t>(d)].transpose();
+  for (int d = 0; d < 3; ++d) frame.first.row(d) = frame.invariants.first[d].transpose();
   return frame;
 }
 

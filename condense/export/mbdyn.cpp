@@ -25,7 +25,7 @@ void write_head(std::ostream& out, const ExportedPart& part, size_t nodes, int m
                      text_of(part.units));
   out << "** row  node  kind of coordinate  direction  label\n";
   for (int j = 0; j < model.n_boundary; ++j) {
-    const rom::MappedDof& dof = part.map[static_cast<size_t>(j)];
+    const rom::MappedDof& dof = part.map[j];
     out << fmt::format("** {}  {}  {}  {} {} {}  {}\n", j + 1, dof.node,
                        dof.kind == rom::MappedDof::Kind::kRotation ? "rotation" : "displacement",
                        dof.direction[0], dof.direction[1], dof.direction[2], dof.label);

@@ -14,7 +14,7 @@ Eigen::Matrix3d completed(const Axes& axes) {
   Eigen::Matrix3d frame = Eigen::Matrix3d::Zero();
   std::vector<Eigen::Index> known, other;
   for (Eigen::Index d = 0; d < 3; ++d) {
-    const auto& axis = axes[static_cast<size_t>(d)];
+    const auto& axis = axes[d];
     (axis ? known : other).push_back(d);
     if (axis) frame.col(d) = *axis;
   }
@@ -34,7 +34,7 @@ Eigen::Matrix3d completed(const Axes& axes) {
 std::map<int, Eigen::Matrix3d> frames_of(const std::vector<rom::MappedDof>& map) {
   std::map<int, Axes> axes;
   for (const rom::MappedDof& dof : map)
-    if (dof.turned) axes[dof.node][static_cast<size_t>((dof.component - 1) % 3)] = dof.direction;
+    if (dof.turned) axes[dof.node][(dof.component - 1) % 3] = dof.direction;
   std::map<int, Eigen::Matrix3d> frames;
   for (const auto& [node, of_node] : axes) frames[node] = completed(of_node);
   return frames;

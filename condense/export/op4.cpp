@@ -92,7 +92,7 @@ std::vector<Eigen::Index> internal_sequence(const std::vector<rom::MappedDof>& m
   std::vector<Eigen::Index> order(map.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-    const rom::MappedDof &x = map[static_cast<size_t>(a)], &y = map[static_cast<size_t>(b)];
+    const rom::MappedDof &x = map[a], &y = map[b];
     return std::pair(x.node, x.component) < std::pair(y.node, y.component);
   });
   return order;
@@ -104,7 +104,7 @@ void export_op4(const ExportedPart& part, const std::filesystem::path& path) {
   const std::vector<Eigen::Index> order = internal_sequence(part.map);
   Eigen::MatrixXd dofs(part.model.size(), 2);
   for (size_t i = 0; i < order.size(); ++i) {
-    const rom::MappedDof& dof = part.map[static_cast<size_t>(order[i])];
+    const rom::MappedDof& dof = part.map[order[i]];
     dofs.row(static_cast<Eigen::Index>(i)) << dof.node, dof.component;
   }
   const Eigen::MatrixXd D = damping_of(part.model);

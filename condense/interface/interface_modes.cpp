@@ -29,10 +29,10 @@ struct Split {
 Split split_boundary(const rom::ReducedModel& model, const std::vector<std::string>& sets) {
   std::vector<char> named(static_cast<size_t>(model.n_boundary), 0);
   for (const std::string& name : sets)
-    for (const int32_t dof : model.set(name).dofs) named[static_cast<size_t>(dof)] = 1;
+    for (const int32_t dof : model.set(name).dofs) named[dof] = 1;
   Split split;
   for (int dof = 0; dof < model.n_boundary; ++dof)
-    (named[static_cast<size_t>(dof)] != 0 ? split.become : split.stay).push_back(dof);
+    (named[dof] != 0 ? split.become : split.stay).push_back(dof);
   return split;
 }
 
@@ -100,7 +100,7 @@ MatrixXd transformation(const rom::ReducedModel& model, const Split& split, cons
   const auto n_R = static_cast<Index>(split.stay.size());
   const Index n_k = model.size() - model.n_boundary, p = Phi_S.cols();
   MatrixXd W = MatrixXd::Zero(model.size(), n_R + p + n_k);
-  for (Index k = 0; k < n_R; ++k) W(split.stay[static_cast<size_t>(k)], k) = 1.0;
+  for (Index k = 0; k < n_R; ++k) W(split.stay[k], k) = 1.0;
   for (size_t k = 0; k < split.become.size(); ++k) {
     W.row(split.become[k]).head(n_R) = Psi_SR.row(static_cast<Index>(k));
     W.row(split.become[k]).segment(n_R, p) = Phi_S.row(static_cast<Index>(k));
@@ -119,13 +119,12 @@ MatrixXd projected(const MatrixXd& A, const MatrixXd& W) {
 void renumber(rom::ReducedModel& model, const Split& split, int before, int size) {
   std::vector<int32_t> renumbered(static_cast<size_t>(model.n_boundary));
   for (size_t k = 0; k < split.stay.size(); ++k)
-    renumbered[static_cast<size_t>(split.stay[k])] = static_cast<int32_t>(k);
+    renumbered[split.stay[k]] = static_cast<int32_t>(k);
   for (size_t k = 0; k < split.become.size(); ++k)
-    renumbered[static_cast<size_t>(split.become[k])] = size + static_cast<int32_t>(k);
+    renumbered[split.become[k]] = size + static_cast<int32_t>(k);
   const auto shift = size + static_cast<int32_t>(split.become.size()) - before;
   for (auto& [name, set] : model.sets)
-    for (int32_t& dof : set.dofs)
-      dof = dof < before ? renumbered[static_cast<size_t>(dof)] : dof + shift;
+    for (int32_t& dof : set.dofs) dof = dof < before ? renumbered[dof] : dof + shift;
 }
 
 /// Rigid motions (r x m) in the coordinates after W: q_R as it is, z the nearest in the mass of S.

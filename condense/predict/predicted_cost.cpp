@@ -98,7 +98,7 @@ PredictedCost predict_cost(const CostRequest& request) {
   fe::require_unknowns(model, "a reduction");
   DofPartition dofs;
   if (request.boundary.empty()) {
-    dofs.interior.resize(static_cast<size_t>(model.size()));
+    dofs.interior.resize(model.size());
     std::iota(dofs.interior.begin(), dofs.interior.end(), 0);
   } else {
     dofs = partition_dofs(model, request.boundary);

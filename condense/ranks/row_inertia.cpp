@@ -56,11 +56,10 @@ OwnRows::OwnRows(const PartitionedModel& part, const ranks::SharedMatrices& matr
   std::array<std::vector<Eigen::Triplet<double>>, 3> all, own;
   for (int j = 0; j < T.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(T, j); it; ++it)
-      all[static_cast<size_t>(it.row() % 3)].emplace_back(it.row() / 3, index_[j], it.value());
+      all[it.row() % 3].emplace_back(it.row() / 3, index_[j], it.value());
   for (size_t k = 0; k < dofs_.size(); ++k)
     for (SparseMatrix::InnerIterator it(T, dofs_[k]); it; ++it)
-      own[static_cast<size_t>(it.row() % 3)].emplace_back(it.row() / 3, static_cast<int>(k),
-                                                          it.value());
+      own[it.row() % 3].emplace_back(it.row() / 3, static_cast<int>(k), it.value());
   for (size_t d = 0; d < 3; ++d) {
     T_[d].resize(T.rows() / 3, T.cols());
     T_[d].setFromTriplets(all[d].begin(), all[d].end());
@@ -73,11 +72,10 @@ Entries OwnRows::of_product(const SparseMatrix& complete, size_t k, size_t l) co
   const SparseMatrix left = (complete * own_[k]).eval().transpose();  // m is symmetric
   const Eigen::SparseMatrix<double, Eigen::RowMajor, int32_t> rows = left * T_[l];
   Entries out;
-  out.reserve(static_cast<size_t>(rows.nonZeros()));
+  out.reserve(rows.nonZeros());
   for (int i = 0; i < rows.outerSize(); ++i)
     for (decltype(rows)::InnerIterator it(rows, i); it; ++it)
-      out.push_back({index_[static_cast<size_t>(dofs_[static_cast<size_t>(i)])],
-                     static_cast<int32_t>(it.col()), it.value()});
+      out.push_back({index_[dofs_[i]], static_cast<int32_t>(it.col()), it.value()});
   return out;
 }
 
@@ -100,8 +98,7 @@ SparseMatrix OwnRows::mass_without_directions() const {
   const std::vector<int32_t>& dof = matrices_.numbering.dof;
   std::vector<double> found;
   for (const Entry& entry : matrices_.M) {
-    const int row = dof[static_cast<size_t>(entry.row)],
-              column = dof[static_cast<size_t>(entry.column)];
+    const int row = dof[entry.row], column = dof[entry.column];
     if (row % 3 == 0 && column % 3 == 0 && row >= column)
       found.insert(found.end(), {row / 3.0, column / 3.0, entry.value});
   }

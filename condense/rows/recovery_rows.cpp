@@ -31,7 +31,7 @@ SkinRecovery::SkinRecovery(const PartitionedModel& part, const std::vector<std::
   const fe::FeModel& model = part.full;
   const DofPartition& partition = part.dofs;
   for (size_t k = 0; k < partition.boundary.size(); ++k)
-    boundary_[static_cast<size_t>(partition.boundary[k])] = static_cast<int32_t>(k);
+    boundary_[partition.boundary[k]] = static_cast<int32_t>(k);
   if (!surfaces.empty()) faces_ = skin_faces(model, surfaces);
   const RowSparse by_row = model.T;
   std::vector<char> moves(static_cast<size_t>(model.size()), 0);
@@ -40,7 +40,7 @@ SkinRecovery::SkinRecovery(const PartitionedModel& part, const std::vector<std::
       for_each_dof(by_row, point, d, [&](size_t dof, double) { moves[dof] = 1; });
   for (const std::string& name : sets)
     for (const int32_t dof : find_named(model.sets, model.name + ": rows", "set", name).dofs)
-      moves[static_cast<size_t>(dof)] = 1;
+      moves[dof] = 1;
   for (size_t k = 0; k < partition.interior.size(); ++k) {
     const auto dof = static_cast<size_t>(partition.interior[k]);
     if (moves[dof] == 0) continue;
@@ -53,7 +53,7 @@ void SkinRecovery::gather(const PartitionedModel& part, RowMatrix& static_rows,
                           RowMatrix& shape_rows) {
   const sparse::RowTeam& team = part.team();
   std::vector<int32_t> dofs;
-  for (const int32_t k : unknowns_) dofs.push_back(part.dofs.interior[static_cast<size_t>(k)]);
+  for (const int32_t k : unknowns_) dofs.push_back(part.dofs.interior[k]);
   dofs = team.gather(std::move(dofs));
   shape_rows = team.gather(std::move(shape_rows));
   static_rows = team.gather(std::move(static_rows));
@@ -62,8 +62,7 @@ void SkinRecovery::gather(const PartitionedModel& part, RowMatrix& static_rows,
     sets_.clear();
     return;
   }
-  for (size_t k = 0; k < dofs.size(); ++k)
-    row_[static_cast<size_t>(dofs[k])] = static_cast<int32_t>(k);
+  for (size_t k = 0; k < dofs.size(); ++k) row_[dofs[k]] = static_cast<int32_t>(k);
 }
 
 rom::Skin SkinRecovery::recover(const RowMatrix& static_rows, const RowMatrix& shape_rows) const {
@@ -75,14 +74,14 @@ rom::Skin SkinRecovery::recover(const RowMatrix& static_rows, const RowMatrix& s
   const auto n = static_cast<Eigen::Index>(faces_.points.size());
   skin.nodes = RowMatrix::Zero(n, 3);
   for (Eigen::Index p = 0; p < n; ++p)
-    for (const auto& [node, weight] : faces_.points[static_cast<size_t>(p)])
+    for (const auto& [node, weight] : faces_.points[p])
       skin.nodes.row(p) += weight * model_.nodes.row(node);
   const RowSparse by_row = model_.T;
   const Eigen::Index n_b = static_rows.cols(), k = shape_rows.cols();
   skin.T = RowMatrix::Zero(3 * n, n_b + k);
   parallel_pieces(skin.T.rows(), [&](int64_t begin, int64_t end) {
     for (int64_t row = begin; row < end; ++row) {
-      const SkinPoint& point = faces_.points[static_cast<size_t>(row / 3)];
+      const SkinPoint& point = faces_.points[row / 3];
       for_each_dof(by_row, point, row % 3, [&](size_t dof, double factor) {
         if (boundary_[dof] >= 0) {
           skin.T(row, boundary_[dof]) += factor;

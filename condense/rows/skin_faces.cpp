@@ -41,8 +41,7 @@ class Builder {
     for (int32_t& id : out.triangles.reshaped())
       id = static_cast<int32_t>(std::lower_bound(used.begin(), used.end(), id) - used.begin());
     for (const int32_t id : used)
-      out.points.push_back(id < n_nodes_ ? SkinPoint{{id, 1.0}}
-                                         : made_[static_cast<size_t>(id - n_nodes_)]);
+      out.points.push_back(id < n_nodes_ ? SkinPoint{{id, 1.0}} : made_[id - n_nodes_]);
     return out;
   }
 

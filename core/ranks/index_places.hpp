@@ -11,7 +11,7 @@ namespace clatter::ranks {
 class IndexPlaces {
  public:
   explicit IndexPlaces(int64_t size) : place_(static_cast<size_t>(size), -1) {}
-  void add(int64_t index) { place_[static_cast<size_t>(index)] = 0; }
+  void add(int64_t index) { place_[index] = 0; }
   /// Numbers the indices added, and returns them ascending.
   std::vector<int64_t> number() {
     std::vector<int64_t> listed;
@@ -23,7 +23,7 @@ class IndexPlaces {
     return listed;
   }
   /// Place of an index that was added, after number().
-  int32_t operator[](int64_t index) const { return place_[static_cast<size_t>(index)]; }
+  int32_t operator[](int64_t index) const { return place_[index]; }
 
  private:
   std::vector<int32_t> place_;

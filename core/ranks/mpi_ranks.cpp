@@ -140,7 +140,7 @@ std::vector<int32_t> Ranks::gather(std::vector<int32_t> values) const {
 void Ranks::share(std::vector<int32_t>& values) const {
   auto count = static_cast<int64_t>(values.size());
   MPI_Bcast(&count, 1, MPI_INT64_T, 0, kAll);
-  values.resize(static_cast<size_t>(count));
+  values.resize(count);
   in_pieces(count, [&](int64_t at, int part) {
     MPI_Bcast(values.data() + at, part, MPI_INT32_T, 0, kAll);
   });
@@ -160,7 +160,7 @@ std::vector<std::vector<char>> Ranks::exchange(const std::vector<std::vector<cha
   std::vector<std::vector<char>> in(all);
   Messages messages;
   for (size_t r = 0; r < all; ++r) {
-    in[r].resize(static_cast<size_t>(expected[r]));
+    in[r].resize(expected[r]);
     messages.receive(static_cast<int>(r), in[r].data(), expected[r]);
   }
   for (size_t r = 0; r < all; ++r) {

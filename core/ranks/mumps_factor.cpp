@@ -74,7 +74,7 @@ void MumpsFactor::Impl::analyse(const sparse::FactorOptions& options) {
   give_matrix(mumps, triplets, order, size);
   if (coupled) {
     require_schur_counts(mumps, shares.boundary());
-    schur_rows.resize(static_cast<size_t>(shares.boundary()));
+    schur_rows.resize(shares.boundary());
     std::iota(schur_rows.begin(), schur_rows.end(), static_cast<MUMPS_INT>(shares.interior() + 1));
     if (ranks.rank() == 0) schur.resize(schur_rows.size() * schur_rows.size());
     mumps.icntl(19) = 1;
@@ -159,9 +159,9 @@ void MumpsFactor::Impl::run_solve(const MatrixXd& b, bool forward) {
   if (rhs_rows.empty()) {
     for (const int64_t row : shares.rows_of(ranks.rank(), extent == Extent::kWhole))
       rhs_rows.push_back(static_cast<MUMPS_INT>(row + 1));
-    solution_rows.resize(static_cast<size_t>(std::max(data.info[22], 1)));
+    solution_rows.resize(std::max(data.info[22], 1));
   }
-  rhs.resize(static_cast<size_t>(std::max<Index>(rows * count, 1)));
+  rhs.resize(std::max<Index>(rows * count, 1));
   Eigen::Map<MatrixXd>(rhs.data(), rows, count) = scale.asDiagonal() * b;
   mumps.icntl(20) = 10;
   mumps.icntl(21) = 1;
@@ -178,7 +178,7 @@ void MumpsFactor::Impl::run_solve(const MatrixXd& b, bool forward) {
   data.isol_loc = solution_rows.data();
   const Index n_b = shares.boundary();
   if (forward) {
-    reduced.assign(static_cast<size_t>(ranks.rank() == 0 ? n_b * count : 1), 0.0);
+    reduced.assign(ranks.rank() == 0 ? n_b * count : 1, 0.0);
     data.redrhs = reduced.data();
     data.lredrhs = static_cast<MUMPS_INT>(n_b);
   }
@@ -192,7 +192,7 @@ void MumpsFactor::Impl::take_solution(MatrixXd& x, Index count) {
     const int64_t last = extent == Extent::kWhole ? shares.size() : shares.interior();
     std::vector<int64_t> wanted;
     for (MUMPS_INT k = 0; k < mumps.data().info[22]; ++k) {
-      const int64_t row = solution_rows[static_cast<size_t>(k)] - 1;
+      const int64_t row = solution_rows[k] - 1;
       if (row >= last) continue;
       wanted.push_back(row);
       solved.push_back(k);

@@ -134,7 +134,7 @@ void give_matrix(MumpsInstance& mumps, Triplets& triplets, std::vector<MUMPS_INT
   data.irn_loc = triplets.rows.data();
   data.jcn_loc = triplets.columns.data();
   data.a_loc = triplets.values.data();
-  order.resize(static_cast<size_t>(size));
+  order.resize(size);
   std::iota(order.begin(), order.end(), 1);
   data.perm_in = order.data();
 }

@@ -21,7 +21,7 @@ class RowShares {
   bool owns(int rank, int64_t index) const {
     const Starts& starts = index < interior_ ? interior_starts_ : boundary_starts_;
     const int64_t at = index < interior_ ? index : index - interior_;
-    return starts[static_cast<size_t>(rank)] <= at && at < starts[static_cast<size_t>(rank) + 1];
+    return starts[rank] <= at && at < starts[static_cast<size_t>(rank) + 1];
   }
   /// The indices of a rank: its interior ones, then its boundary ones, ascending.
   std::vector<int64_t> rows_of(int rank, bool with_boundary) const;

@@ -58,7 +58,7 @@ Entries sorted(const std::vector<Entries>& parts, const RowShares& shares, int r
   std::partial_sum(next.begin(), next.end(), next.begin());
   Entries own(static_cast<size_t>(next.back()));
   for (const Entries& part : parts)
-    for (const Entry& entry : part) own[static_cast<size_t>(next[row_of(entry)]++)] = entry;
+    for (const Entry& entry : part) own[next[row_of(entry)]++] = entry;
   int64_t begin = 0;
   for (size_t row = 0; row + 1 < next.size(); ++row) {
     std::sort(own.begin() + begin, own.begin() + next[row],
@@ -81,15 +81,14 @@ Entries read_entries(const Ranks& ranks, const std::filesystem::path& path,
   check_diagonal(path, group, columns, values);
   std::vector<Entries> out(static_cast<size_t>(ranks.size()));
   const auto send = [&](int32_t row, int32_t column, double value) {
-    out[static_cast<size_t>(shares.owner(row))].push_back({row, column, value});
+    out[shares.owner(row)].push_back({row, column, value});
   };
   for (int64_t c = 0; c < count; ++c) {
-    const int32_t j = numbering.index[static_cast<size_t>(first + c)];
-    for (int64_t k = columns.starts[static_cast<size_t>(c)];
-         k < columns.starts[static_cast<size_t>(c) + 1]; ++k) {
-      const int32_t i = numbering.index[static_cast<size_t>(columns.rows[static_cast<size_t>(k)])];
-      send(i, j, values[static_cast<size_t>(k)]);
-      if (i != j) send(j, i, values[static_cast<size_t>(k)]);
+    const int32_t j = numbering.index[first + c];
+    for (int64_t k = columns.starts[c]; k < columns.starts[static_cast<size_t>(c) + 1]; ++k) {
+      const int32_t i = numbering.index[columns.rows[k]];
+      send(i, j, values[k]);
+      if (i != j) send(j, i, values[k]);
     }
   }
   return sorted(ranks.exchange(out), shares, ranks.rank());
@@ -115,12 +114,10 @@ Numbering number_dofs(const Ranks& ranks, const std::filesystem::path& path,
   ranks.share(out.stored.permutation);
   out.stored.pattern = ranks.share(out.stored.pattern);
   out.stored.method = ranks.share(out.stored.method);
-  for (const int32_t row : out.stored.permutation)
-    out.dof.push_back(interior[static_cast<size_t>(row)]);
+  for (const int32_t row : out.stored.permutation) out.dof.push_back(interior[row]);
   out.dof.insert(out.dof.end(), boundary.begin(), boundary.end());
   out.index.resize(out.dof.size());
-  for (size_t k = 0; k < out.dof.size(); ++k)
-    out.index[static_cast<size_t>(out.dof[k])] = static_cast<int32_t>(k);
+  for (size_t k = 0; k < out.dof.size(); ++k) out.index[out.dof[k]] = static_cast<int32_t>(k);
   return out;
 }
 

@@ -30,7 +30,7 @@ SharedMatrix::SharedMatrix(const Ranks& ranks, const RowShares& shares, const En
   });
   const std::vector<int64_t> others = fetched.number();
   for (size_t k = 1; k < starts_.size(); ++k) starts_[k] += starts_[k - 1];
-  columns_.reserve(static_cast<size_t>(starts_.back()));
+  columns_.reserve(starts_.back());
   values_.reserve(columns_.capacity());
   diagonal_ = Eigen::VectorXd::Zero(rows_);
   each([&](const Entry& entry, bool here) {
@@ -52,12 +52,11 @@ void SharedMatrix::multiply_with(Of&& of, const double* x, double* y, int count)
     for (int64_t i = begin; i < end; ++i) {
       double* out = y + i * count;
       std::fill_n(out, count, 0.0);
-      for (int64_t k = starts_[static_cast<size_t>(i)]; k < starts_[static_cast<size_t>(i) + 1];
-           ++k) {
-        const int64_t column = columns_[static_cast<size_t>(k)];
+      for (int64_t k = starts_[i]; k < starts_[static_cast<size_t>(i) + 1]; ++k) {
+        const int64_t column = columns_[k];
         const double* in =
             column < rows_ ? x + column * count : remote.data() + (column - rows_) * count;
-        const double value = of(values_[static_cast<size_t>(k)]);
+        const double value = of(values_[k]);
         for (int c = 0; c < count; ++c) out[c] += value * in[c];
       }
     }

@@ -53,7 +53,7 @@ const std::vector<int32_t>& SharedPencil::places() const {
 std::vector<int32_t> SharedPencil::own_places() const {
   std::vector<int32_t> own;
   for (const int64_t row : own_.shares.rows_of(own_.ranks.rank(), extent_ == Extent::kWhole))
-    own.push_back(places()[static_cast<size_t>(row)]);
+    own.push_back(places()[row]);
   return own;
 }
 
@@ -64,8 +64,7 @@ std::vector<int> SharedPencil::bodies() const {
   for (const Entries* part : {&own_.K, &own_.M})
     for (const Entry& entry : *part)
       if (entry.value != 0.0 && entry.row < n && entry.column < n)
-        own.join(places()[static_cast<size_t>(entry.row)],
-                 places()[static_cast<size_t>(entry.column)]);
+        own.join(places()[entry.row], places()[entry.column]);
   std::vector<std::vector<int32_t>> out(static_cast<size_t>(ranks.size()));
   out[0] = own.roots();
   fe::DofUnion all(n);
