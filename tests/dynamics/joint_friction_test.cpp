@@ -88,7 +88,7 @@ TEST(FrictionJoint, WithoutFrictionIsTheJoint) {
   EXPECT_EQ(a.force(2), 0.0);
 }
 
-TEST(JournalJoint, IsPetroffsBearingWhenCentred) {
+TEST(FilmJoint, IsPetroffsBearingWhenCentred) {
   PairElement joint = journal_joint();
   Response response;
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(6);
@@ -100,7 +100,7 @@ TEST(JournalJoint, IsPetroffsBearingWhenCentred) {
   EXPECT_NEAR(response.force(5), -petroff, 1e-9 * std::abs(petroff));
 }
 
-TEST(JournalJoint, TangentAndPowerAreExact) {
+TEST(FilmJoint, TangentAndPowerAreExact) {
   for (const BearingModel model : {BearingModel::kMoes, BearingModel::kButenschoen}) {
     PairElement joint = journal_joint(model);
     Eigen::VectorXd y = 6e-6 * test::random_vector(6, 3);
@@ -111,7 +111,7 @@ TEST(JournalJoint, TangentAndPowerAreExact) {
   }
 }
 
-TEST(JournalJoint, ForcesAndMomentsOfBothSidesCancel) {
+TEST(FilmJoint, ForcesAndMomentsOfBothSidesCancel) {
   PairElement joint = journal_joint();
   Eigen::VectorXd y = 8e-6 * test::random_vector(6, 3), v = 0.02 * test::random_vector(6, 5);
   y(5) = 0.0;  // the rod's rotation: its end is at its ideal position, moved by its centre
@@ -129,7 +129,7 @@ TEST(JournalJoint, ForcesAndMomentsOfBothSidesCancel) {
   EXPECT_GT(std::abs(couple), 1e-6);
 }
 
-TEST(JournalJoint, SeesTheMeanRotationOfPinAndRod) {
+TEST(FilmJoint, SeesTheMeanRotationOfPinAndRod) {
   // Pin and rod turning at w in opposite directions carry nothing; both at w carry as one at 2 w
   // against one at rest: the wedge has the mean of both speeds.
   PairElement joint = journal_joint();

@@ -37,7 +37,7 @@ std::unique_ptr<Port> planar_port(int first, const Eigen::Vector2d& arm) {
   return std::make_unique<PlanarPort>(std::vector<int>{first, first + 1, first + 2}, arm, plane);
 }
 
-TEST(PortElement, TangentsAreTheDifferenceQuotientsOfTheForces) {
+TEST(PairElement, TangentsAreTheDifferenceQuotientsOfTheForces) {
   PairElement bushing("bushing", spatial_port(0, {0.3, -0.2, 0.5}), planar_port(10, {0.4, 0.1}),
                       linear_joint(3.0, 0.7));
   PairElement spring("spring", spatial_port(0, {0.3, -0.2, 0.5}), spatial_port(10, {0.0, 0.4, 0.1}),
@@ -108,7 +108,7 @@ TEST(Port, RotationTurnsTheArmsOfABody) {
   EXPECT_LT((first.position - second.position - arm).norm(), 1e-14);
 }
 
-TEST(PortElement, ForceAndMomentOfAPairBalance) {
+TEST(PairElement, ForceAndMomentOfAPairBalance) {
   // Two spatial bodies: the sum of forces, and of moments about the origin, vanishes.
   PairElement bushing("bushing", spatial_port(0, {0.3, -0.2, 0.5}),
                       spatial_port(10, {0.4, 0.1, 0.2}), linear_joint(3.0, 0.7));
@@ -126,7 +126,7 @@ TEST(PortElement, ForceAndMomentOfAPairBalance) {
   EXPECT_LT(moment.norm(), 1e-14);
 }
 
-TEST(PortElement, PowerIsTheWorkOnTheBodies) {
+TEST(PairElement, PowerIsTheWorkOnTheBodies) {
   PairElement bushing("bushing", spatial_port(0, {0.3, -0.2, 0.5}),
                       spatial_port(10, {0.4, 0.1, 0.2}), linear_joint(3.0, 0.7));
   VectorXd y = arbitrary(20, 5), v = arbitrary(20, 6);
