@@ -33,6 +33,11 @@ class Command(unittest.TestCase):
         synthetic.write_shape(self.folder / "bore.shape.h5")
         synthetic.write_shape(self.folder / "skirt.shape.h5", cases=["thermal"], covered=False)
 
+    def test_the_version_is_that_of_the_stages(self):
+        done = clatter("--version", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"^clatter \d+\.\d+\.\d+\n$")
+
     def test_info_names_schema_cost_and_contents(self):
         done = clatter("info", "slap.run.h5", folder=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)

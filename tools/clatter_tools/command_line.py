@@ -12,6 +12,7 @@ from . import collect, drive_command, export_command, fired_cycle, info, levels,
 from .artefact import BadArtefact, CannotWrite
 from .integrity import is_damage
 from .keys import command as keys_command
+from .keys import files as keys_files
 from .study import command as study
 from .study.run import Failed
 
@@ -19,8 +20,17 @@ EPILOG = """the stages: clatter-mesh, clatter-assembly, clatter-modal, clatter-c
 clatter-recover; each has --help. A Makefile of ten lines includes the rules: include $(shell clatter rules)"""
 
 
+class Version(argparse.Action):
+    """`--version`: that of the stages, which come with the command."""
+    def __call__(self, top, *_):
+        done = subprocess.run([keys_files.program("clatter-mesh"), "--version"], capture_output=True, text=True)
+        print(done.stdout.replace("clatter-mesh", "clatter"), end="")
+        top.exit(done.returncode)
+
+
 def parser():
     top = argparse.ArgumentParser(prog="clatter", description=__import__("clatter_tools").__doc__, epilog=EPILOG)
+    top.add_argument("--version", action=Version, nargs=0, help="print the version and exit")
     commands = top.add_subparsers(dest="command", required=True, metavar="command")
     one = commands.add_parser("info", help="contents, inputs, certificate and cost of an artefact")
     one.add_argument("files", nargs="+", metavar="file.h5")
