@@ -370,11 +370,7 @@ void ProfileContact::accept_step(double time) {
 }
 
 Power ProfileContact::power(const VectorXd&, const VectorXd&) const {
-  Power power;
-  power.stored = finished_.stored;
-  power.lost = finished_.lost;
-  power.input = finished_.input;
-  return power;
+  return {last_.stored, last_.lost, last_.input};
 }
 
 void ProfileContact::record(History& history) const {

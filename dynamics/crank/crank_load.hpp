@@ -46,7 +46,7 @@ class CrankLoad : public ForceElement, public TableForce {
   void finish_stage(const Stage&) override { finished_ = last_; }
   void accept_step(double time) override;
   Power power(const Eigen::VectorXd&, const Eigen::VectorXd& v) const override {
-    return {0.0, 0.0, -sign_ * finished_.torque * v(0)};
+    return {0.0, 0.0, -sign_ * last_.torque * v(0)};
   }
   /// `crank_load_torque` [N m], `crank_deviation` [rad] from the clock, `crank_speed` [rad/s].
   void record(History& history) const override;

@@ -37,9 +37,8 @@ class GasForce : public ForceElement, public TableForce {
   double by_table(double time, const TurningAngle& at) const override {
     return ramp_(time) * (pressure_(at.angle) - ambient_);
   }
-  void finish_stage(const Stage&) override { finished_ = last_; }
   Power power(const Eigen::VectorXd&, const Eigen::VectorXd& v) const override {
-    return {0.0, 0.0, finished_ * v(0)};
+    return {0.0, 0.0, last_ * v(0)};
   }
 
  private:
@@ -48,7 +47,7 @@ class GasForce : public ForceElement, public TableForce {
   Spline pressure_;
   double ambient_;
   TimeFunction ramp_;
-  double last_ = 0.0, finished_ = 0.0;  // pressure over ambient [Pa]
+  double last_ = 0.0;  // pressure over ambient [Pa]
 };
 
 /// The angle of the cylinder's crank from its firing TDC [rad], by the rotation about +x from that

@@ -83,7 +83,6 @@ void RealCrankElement::finish_stage(const Stage& stage) {
   crank_->finish_stage(stage);
   rates_.resize(static_cast<size_t>(stage.index) + 1);
   rates_.back() = last_.rate;
-  finished_ = last_;
 }
 
 void RealCrankElement::accept_step(double time) {
@@ -95,11 +94,11 @@ Power RealCrankElement::power(const Eigen::VectorXd& y, const Eigen::VectorXd& v
   const Eigen::Index n = y.size() - 1;
   Eigen::VectorXd own_y = y.head(n), own_v = v.head(n);
   if (referred_) {
-    own_y(place_) -= finished_.value;
-    own_v(place_) -= finished_.rate;
+    own_y(place_) -= last_.value;
+    own_v(place_) -= last_.rate;
   }
   Power power = element_->power(own_y, own_v);
-  power.input += finished_.force * finished_.rate;
+  power.input += last_.force * last_.rate;
   return power;
 }
 

@@ -64,7 +64,7 @@ class RealCrankElement : public ForceElement {
     double value = 0.0, rate = 0.0;  // D and D'
     double force = 0.0;              // on s
   };
-  Shift last_, finished_;
+  Shift last_;
   std::vector<double> rates_;  // D' at the finished stages of this step
 };
 

@@ -96,7 +96,8 @@ class ForceElement {
   /// True when the element takes a mode in which they do not; false ends the run.
   virtual bool at_accumulation(int /*index*/) { return false; }
 
-  /// Energy and power at the last finished stage; `y`, `v` are of that stage.
+  /// Energy and power at the last evaluation: that of a finished stage, or of the state that an
+  /// event left; `y`, `v` are of that state.
   virtual Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const = 0;
   /// Named scalars of the last accepted state.
   virtual void record(History&) const {}

@@ -100,7 +100,7 @@ void PairElement::accept_step(double) {
 }
 
 Power PairElement::power(const VectorXd&, const VectorXd&) const {
-  return {finished_.force.stored, finished_.force.lost, finished_.input};
+  return {last_.force.stored, last_.force.lost, last_.input};
 }
 
 void PairElement::record(History& history) const {

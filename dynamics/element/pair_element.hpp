@@ -24,6 +24,7 @@ class PairElement : public ForceElement {
   void begin_step(double) override { law_->begin_step(); }
   void finish_stage(const Stage& stage) override;
   void accept_step(double) override;
+  /// Of the last evaluation: after an event that of the state that it left.
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
   /// `<name>_force_x`, `_y`, `_z` [N] on a, in the engine's axes, then what the law records; spaces
   /// of the name are underscores.

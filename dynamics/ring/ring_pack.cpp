@@ -171,7 +171,7 @@ void RingPack::add_tangent(const Instant& at, double kappa, double stroke_rate,
 }
 
 Power RingPack::power(const Eigen::VectorXd&, const Eigen::VectorXd&) const {
-  return {0.0, finished_.axial_lost + finished_.lateral_lost, finished_.input};
+  return {0.0, last_.axial_lost + last_.lateral_lost, last_.input};
 }
 
 void RingPack::record(History& history) const {

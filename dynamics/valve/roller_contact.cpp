@@ -164,11 +164,7 @@ void RollerContact::accept_step(double time) {
 }
 
 Power RollerContact::power(const VectorXd&, const VectorXd&) const {
-  Power power;
-  power.stored = finished_.stored;
-  power.lost = finished_.lost;
-  power.input = finished_.input;
-  return power;
+  return {last_.stored, last_.lost, last_.input};
 }
 
 void RollerContact::record(History& history) const {

@@ -84,6 +84,41 @@ TEST_F(Stops, OracleABallFallsBouncesAndComesToRest) {
   }
 }
 
+TEST_F(Stops, ADamperLosesAfterAnImpactWhatTheNewSpeedSays) {
+  // A ball on a weak damped spring that strikes the table three times: impacts change its speed,
+  // and with it what the damper loses, at once.
+  const H5File file = recorded(R"(
+gravity_m_s2 = 9.81
+[time]
+end_s = 0.1
+[accuracy]
+tolerance = 1e-6
+[[rigid_body]]
+name = "ball"
+motion = "zx"
+mass_kg = 2.0
+inertia_kg_m2 = 0.1
+centre_mm = [0, 0, 50]
+[[bushing]]
+name = "damper"
+a = { body = "ball", at_mm = [0, 0, 50] }
+b = { at_mm = [0, 0, 50] }
+stiffness_n_m = 100
+damping_n_s_m = 20
+[[stop]]
+name = "table"
+a = { body = "ball", at_mm = [0, 0, 50] }
+b = { at_mm = [0, 0, 45] }
+normal = [0, 0, 1]
+restitution = 0.5
+)");
+  const auto time = file.read_doubles("history/time"),
+             impulse = file.read_doubles("history/stop_table_impulse");
+  EXPECT_GE(changes(time, impulse).size(), 3U);
+  std::printf("energy residue %.2e\n", result_.energy_residue);
+  EXPECT_LT(result_.energy_residue, 5e-6);
+}
+
 TEST_F(Stops, WithoutRestitutionABallStaysWhereItFell) {
   const H5File file = recorded(ball("space", 0.0));
   const auto z = file.read_doubles("history/ball_z"), time = file.read_doubles("history/time");
