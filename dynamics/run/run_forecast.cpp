@@ -136,8 +136,7 @@ class Probe {
   }
 
  private:
-  /// One section: coarse, then with the steps of the run, the first of which find their length and
-  /// are not counted.
+  /// One section: coarse, then with the steps of the run, the first of which are not counted.
   void integrate(double from, double length) {
     const double end = begin_ + span_;
     const auto advance = [end](Integrator& method, int least, double until) {
@@ -146,10 +145,10 @@ class Probe {
         method.step(end);
       }
     };
-    const double window = from + (1.0 - limits_.share) * length;
-    advance(*coarse_, 0, window);
+    const double counted_from = from + (1.0 - limits_.share) * length;
+    advance(*coarse_, 0, counted_from - limits_.settle * length);
     fine_->resume(coarse_->state(), std::max(0, coarse_->rung() + finer_));
-    advance(*fine_, limits_.least_steps / 2, window + 0.2 * limits_.share * length);
+    advance(*fine_, limits_.least_steps / 2, counted_from);
     const double start = fine_->state().time;
     const StepCost before = cost_so_far(*fine_, model_->system);
     advance(*fine_, limits_.least_steps, from + length);

@@ -25,7 +25,8 @@ struct RunForecast {
 /// Limits of a probe.
 struct ProbeLimits {
   int sections = 24;     // of the first cycle, or of the span
-  double share = 0.1;    // of each section with the steps of the run
+  double share = 0.1;    // of each section with the steps of the run that are counted
+  double settle = 0.1;   // of each section before it, in such steps that are not
   int coarser = 4;       // times as long the steps between
   int least_steps = 8;   // counted in each section
   double seconds = 2.0;  // of the processor, at least granted
@@ -34,10 +35,11 @@ struct ProbeLimits {
 
 /// Predicts by a probe: integrates the first cycle (a scene without an engine: its span), most of
 /// it in steps `coarser` times as long (tolerance times coarser^3, as the methods are of second
-/// order), and the last tenth of each section with the steps of the run itself, whose counts and
-/// seconds of each element stand for the section. What is not reached within the limits is taken as
-/// what is. Every cycle is taken as the first one. NumericsError when not even the first section
-/// succeeds.
+/// order), and the last fifth of each section with the steps of the run itself. In the first half
+/// of it the errors of the coarse steps, by which a skirt bounces in its film, die out; counts and
+/// seconds of each element in the second stand for the section. What is not reached within the
+/// limits is taken as what is. Every cycle is taken as the first one. NumericsError when not even
+/// the first section succeeds.
 RunForecast probe_run(const Scene& scene, const LoadedBodies& bodies,
                       const ProbeLimits& limits = {});
 

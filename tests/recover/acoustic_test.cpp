@@ -93,7 +93,8 @@ TEST(VelocityMap, KeepsTheFluxOfASwellingBoxAndOfRigidMotions) {
   EXPECT_NEAR(flux(wrap, map.map * swelling(mesh)), 3.0 * 0.024, 1e-14);
   EXPECT_LT(map.errors.flux, 1e-14);
   EXPECT_LT(map.errors.velocity, 0.12);  // at the rounded edges
-  EXPECT_TRUE(map.lids.empty());
+  // Nothing is open; a face that cuts an edge of the box may face the body with less than half.
+  EXPECT_LT(map.lid_area, 1e-3 * wrap.area);
 }
 
 TEST(VelocityMap, IsExactForASphere) {

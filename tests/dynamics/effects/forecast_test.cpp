@@ -26,23 +26,32 @@ const Effect& row(const RunForecast& forecast, const std::string& name) {
   throw std::runtime_error(name);
 }
 
+// Contacts of the skirt differ with every rounding: counts are means over scenes that differ by
+// less than anyone can measure.
 TEST_F(EffectForecast, CountsOfAProbeAreThoseOfTheRun) {
-  const Scene plain = scene(kPlain);
-  RunResult result;
-  testing::complete_file(plain, folder_ / "plain.run.h5", result);
-  ProbeLimits limits;
-  limits.seconds = 1e3;  // all of the cycle, however slow the machine
-  const RunForecast found = probe_run(plain, load_bodies(plain), limits);
-  const auto ratio = [](long long predicted, long long counted) {
-    return static_cast<double>(predicted) / static_cast<double>(counted);
-  };
-  // The second cycle is taken as the first, a tenth stands for all of it.
-  EXPECT_NEAR(ratio(found.statistics.accepted, result.statistics.accepted), 1.0, 0.3);
-  EXPECT_NEAR(ratio(found.statistics.evaluations, result.statistics.evaluations), 1.0, 0.4);
-  // A refused trial state ends an evaluation of all elements before the film's or after it.
-  EXPECT_NEAR(ratio(row(found, "oil film").evaluations, found.statistics.evaluations), 1.0, 0.01);
-  EXPECT_EQ(row(found, "mounts").evaluations, 0);
-  EXPECT_EQ(row(found, "oil film").unknowns, 2 * 6 * 6);
+  constexpr int kScenes = 4;
+  double steps = 0.0, evaluations = 0.0;
+  for (int k = 0; k < kScenes; ++k) {
+    const Scene plain =
+        scene(fmt::format("{}[contact]\nclearance_um = {}\n", kPlain, 20.0 + 1e-6 * k));
+    RunResult result;
+    testing::complete_file(plain, folder_ / fmt::format("plain_{}.run.h5", k), result);
+    ProbeLimits limits;
+    limits.seconds = 1e3;  // all of the cycle, however slow the machine
+    const RunForecast found = probe_run(plain, load_bodies(plain), limits);
+    const auto ratio = [](long long predicted, long long counted) {
+      return static_cast<double>(predicted) / static_cast<double>(counted);
+    };
+    // The second cycle is taken as the first, a tenth stands for all of it.
+    steps += ratio(found.statistics.accepted, result.statistics.accepted) / kScenes;
+    evaluations += ratio(found.statistics.evaluations, result.statistics.evaluations) / kScenes;
+    // A refused trial state ends an evaluation of all elements before the film's or after it.
+    EXPECT_NEAR(ratio(row(found, "oil film").evaluations, found.statistics.evaluations), 1.0, 0.01);
+    EXPECT_EQ(row(found, "mounts").evaluations, 0);
+    EXPECT_EQ(row(found, "oil film").unknowns, 2 * 6 * 6);
+  }
+  EXPECT_NEAR(steps, 1.0, 0.25);
+  EXPECT_NEAR(evaluations, 1.0, 0.3);
 }
 
 TEST_F(EffectForecast, AProbeEndsAtItsLimitsAndSaysWhatItSaw) {
