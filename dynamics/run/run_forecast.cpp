@@ -174,7 +174,7 @@ class Probe {
     const double part = static_cast<double>(done_) / limits_.sections;
     std::string what = scene.clock ? fmt::format("{:.0f} of 720 deg", 720.0 * part)
                                    : fmt::format("{:.3g} of {:.3g} s", span_ * part, span_);
-    what = fmt::format("a probe of {}, a tenth of it with the steps of the run", what);
+    what = fmt::format("a probe of {}, a tenth of it counted with the steps of the run", what);
     if (!failure_.empty()) what += fmt::format(" (it ended there: {})", failure_);
     if (cycles_ > 1)
       what += fmt::format("; each of {}{} cycles is taken as the first one",
