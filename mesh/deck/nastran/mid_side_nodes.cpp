@@ -50,7 +50,9 @@ class Completer {
 
   int32_t add(size_t a, size_t b) {
     Grids& grids = model_.raw.grids;
-    if (next_ == 0) next_ = *std::max_element(grids.ids.begin(), grids.ids.end());
+    if (next_ == 0)
+      next_ = std::max(*std::max_element(grids.ids.begin(), grids.ids.end()),
+                       model_.raw.first_hanging - 1);
     if (next_ == std::numeric_limits<int32_t>::max())
       model_.source.fail(grids.origins[a], "found no free number above the largest GRID");
     const auto row = static_cast<int32_t>(grids.size());

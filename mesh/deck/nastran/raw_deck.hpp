@@ -379,6 +379,7 @@ struct RawDeck {
 
   // Content of "$ clatter" comments (writer.hpp).
   std::map<int32_t, std::string> region_names, set_names;
+  int32_t first_hanging = 1;  // number of the first mid-side node that no GRID card gives, at least
   std::map<int32_t, std::array<double, 3>> exact;  // coordinates of GRIDs still to come
   struct NamedSurface {
     std::string name;

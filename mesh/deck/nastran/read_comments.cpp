@@ -54,6 +54,10 @@ void read_comment(std::string_view text, Origin origin, const Source& source, Ra
     read_name(text, origin, source, raw.region_names);
   } else if (word == "at") {
     read_exact(text, raw);
+  } else if (word == "hanging") {
+    const auto first = to_integer(take_word(text));
+    if (!first || *first < 1) source.fail(origin, "comment of clatter: expected a number");
+    raw.first_hanging = *first;
   } else if (word == "set") {
     read_name(text, origin, source, raw.set_names);
   } else if (word == "surface") {

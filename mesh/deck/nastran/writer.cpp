@@ -66,6 +66,9 @@ class NastranWriter {
       text_.put("$ clatter region {} {}\nPSOLID  {:<8}1\n", r + 1, mesh_.regions[r], r + 1);
     }
     nodes();
+    if (const auto hanging = mesh_.node_sets.find(kHangingMidSideNodes);
+        hanging != mesh_.node_sets.end() && !hanging->second.empty())
+      text_.put("$ clatter hanging {}\n", numbers_.node(hanging->second.front()));
     for (const CellBlock& block : mesh_.cells) cells(block);
     size_t number = 0;
     for (const auto& [name, nodes] : mesh_.node_sets) {

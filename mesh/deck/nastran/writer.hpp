@@ -15,6 +15,7 @@
 //   $ clatter tri6 1 2 3 4 5 6          nodes of one face in the order of cell.hpp
 //   $ clatter at 17 0.1 0.2 0.30000000000000004   coordinates of GRID 17; they count as long as the
 //                                       card says the same in fewer digits
+//   $ clatter hanging 40                number of the first hanging mid-side node: cells omit them
 // Fields and empty sets are not written. Regions without cells are lost when the deck is read
 // again.
 #include <filesystem>
