@@ -77,15 +77,13 @@ LinerShapeMap::LinerShapeMap(const LinerShape& shape, const PadGrid& pad)
         "liner shape: found {} x {} deviations, expected {} angles x {} heights",
         shape.deviation.rows(), shape.deviation.cols(), shape.angle.size(), shape.height.size()));
   for (int i = 0; i < pad.n_angle(); ++i) columns_.push_back(stencil_.at_angle(pad.angle(i)));
-  rows_.resize(pad.n_axial());
 }
 
 void LinerShapeMap::add(double offset, Eigen::ArrayXd& h, Eigen::ArrayXd& slope) const {
-  for (int j = 0; j < pad_.n_axial(); ++j) rows_[j] = stencil_.at_axial(pad_.axial(j) + offset);
-  for (int i = 0; i < pad_.n_angle(); ++i) {
-    const CylinderStencil::Angular& around = columns_[i];
-    for (int j = 0; j < pad_.n_axial(); ++j) {
-      const CylinderStencil::Axial& along = rows_[j];
+  for (int j = 0; j < pad_.n_axial(); ++j) {
+    const CylinderStencil::Axial along = stencil_.at_axial(pad_.axial(j) + offset);
+    for (int i = 0; i < pad_.n_angle(); ++i) {
+      const CylinderStencil::Angular& around = columns_[i];
       auto line = [&](int k) {
         return (1.0 - around.weight) * shape_.deviation(around.first, k) +
                around.weight * shape_.deviation(around.second, k);

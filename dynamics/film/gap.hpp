@@ -139,8 +139,7 @@ class LinerShapeMap {
   LinerShape shape_;
   PadGrid pad_;
   CylinderStencil stencil_;
-  std::vector<CylinderStencil::Angular> columns_;     // of the pad's cells
-  mutable std::vector<CylinderStencil::Axial> rows_;  // at the last offset
+  std::vector<CylinderStencil::Angular> columns_;  // of the pad's cells
 };
 
 /// Radial displacement of the cells under unit rigid motions x, y, z, rx, ry, rz about the origin

@@ -105,24 +105,24 @@ void LinerLayer::meet_one(Side side, double travel, Eigen::ArrayXd& thickness) c
   const double from = edge(side, height_), to = from + travel;
   const bool leads = side == Side::kBelow ? travel < 0.0 : travel > 0.0;
   double swept = 0.0;
-  sum_.setZero();
+  thickness.setZero(held_.rows());
   if (leads) {
     const int a = cell_at(std::min(from, to)), b = cell_at(std::max(from, to));
     for (int k = a; k <= b; ++k) {
       const double before = free(side, from, k), covered = before - free(side, to, k);
       if (before <= 0.0 || covered <= 0.0) continue;
       swept += covered;
-      sum_ += held_.col(k) * (covered / before);
+      thickness += held_.col(k) * (covered / before);
     }
   }
   const Eigen::ArrayXd& owed = side == Side::kBelow ? owed_below_ : owed_above_;
   if (swept > kSliver * step_) {
-    thickness = ((sum_ - owed) / swept).max(0.0);
+    thickness = ((thickness - owed) / swept).max(0.0);
     return;
   }
   const int k = first_free(side, from);
   if (k < 0)
-    thickness.setZero(sum_.size());
+    thickness.setZero();
   else
     thickness = held_.col(k) / free(side, from, k);
 }

@@ -107,8 +107,7 @@ class LinerLayer {
   double height_ = 0.0;
   Eigen::ArrayXXd held_;                    // volume per length, n_angle x cells [m2]
   Eigen::ArrayXd owed_below_, owed_above_;  // taken before it was there, n_angle [m2]
-  mutable Eigen::ArrayXd sum_;
-  Eigen::ArrayXd rest_;
+  Eigen::ArrayXd sum_, rest_;
   OilBalance balance_;
 };
 

@@ -27,7 +27,7 @@ const Eigen::ArrayXd& OilContent::before(const Reynolds& film, const std::vector
   if (limited_) {
     sent_.setZero();
     for (size_t j = 0; j < weights.size(); ++j) sent_ += weights[j] * flows_[j];
-    film.limit_outflow(content_, sent_, before_);
+    film.pad().limit_outflow(content_, sent_, before_);
   }
   return before_;
 }
@@ -45,7 +45,7 @@ void OilContent::volumes(const Reynolds& film, const std::vector<double>& weight
 void OilContent::finish_stage(const Reynolds& film, const Eigen::ArrayXd& space, int index,
                               double kappa) {
   if (by_flows_) {
-    film.leaving(film.flows(), stage_content_);
+    film.pad().leaving(film.flows(), stage_content_);
     stage_content_ = (before_ - kappa * stage_content_).max(0.0);  // below by rounding
   } else {
     stage_content_ = film.density() * space;

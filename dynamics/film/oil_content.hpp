@@ -14,7 +14,7 @@ namespace clatter::film {
 ///
 /// The two methods of second order are not positive: at Courant numbers above 2.4 the earlier
 /// stages of SDIRK2 drag more oil out of a cell than it held. `before` reduces such outflow face by
-/// face (Reynolds::limit_outflow), so that no cell of any stage holds less than nothing and what
+/// face (PadFaces::limit_outflow), so that no cell of any stage holds less than nothing and what
 /// leaves one cell still enters the next.
 class OilContent {
  public:

@@ -3,318 +3,216 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/base/error.hpp"
 #include "core/base/threads.hpp"
-#include "dynamics/film/pad_state.hpp"
+#include "dynamics/film/pad.hpp"
 
 namespace clatter::film {
-namespace {
-
-void require(bool holds, const std::string& name, const char* key, double found,
-             const char* expected) {
-  if (!holds)
-    throw InputError(fmt::format("{}: {}: found {}, expected {}", name, key, found, expected));
-}
-
-// Cells around the entire skirt: fewer do not resolve a gap that varies with its sine. An odd
-// number is not symmetric about the thrust plane.
-constexpr int kLeastAround = 8;
-
-/// The entire skirt begins and ends at the pin, where the film is closed.
-PadGrid make_grid(const PistonLinerOptions& options, double centre) {
-  if (options.span == SkirtSpan::kWhole)
-    return PadGrid::uniform(-0.5 * std::numbers::pi, 1.5 * std::numbers::pi, options.cells_around,
-                            options.skirt_bottom, options.skirt_top, options.cells_along,
-                            options.bore_radius, true);
-  return PadGrid::uniform(centre - 0.5 * options.pad_span, centre + 0.5 * options.pad_span,
-                          options.cells_around, options.skirt_bottom, options.skirt_top,
-                          options.cells_along, options.bore_radius);
-}
-
-}  // namespace
 
 PistonLiner::~PistonLiner() = default;
 
 PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
                          std::vector<int> coordinates)
     : ForceElement(std::move(coordinates)),
-      options_(std::move(options)),
-      bodies_(std::move(bodies)) {
-  check();
-  const ContactEffects& on = options_.effects;
-  if (!on.cavitation) {  // every cell is full: no setting of partial filling applies
-    options_.initial_fill = options_.supply_fill = 1.0;
-    options_.oil_thickness = std::numeric_limits<double>::infinity();
-    for (Recess& recess : options_.recesses) {
-      recess.kind = Recess::Kind::kGroove;
-      recess.fill = 1.0;
-    }
-  }
-  if (on.film) {
-    rough_ = std::make_unique<RoughFilm>(options_.roughness);
-    viscosity_ = std::make_unique<Viscosity>(options_.oil, options_.viscosity);
-    options_.viscosity = viscosity_->reference();
-  } else {
-    options_.liner_layer.reset();
-  }
-  if (on.asperities) asperity_ = std::make_unique<Asperity>(options_.asperity);
-  if (on.asperities && options_.damping.loss_factor > 0.0)
-    damping_ = std::make_unique<ContactDamping>(options_.damping);
-  const auto patches_of = [](const std::optional<ElasticSurface>& surface) {
-    return surface ? static_cast<int>(surface->grid.angle.size() * surface->grid.axial.size()) : 0;
-  };
-  at_ = {patches_of(bodies_.piston), patches_of(bodies_.liner)};
-  if (static_cast<int>(coordinates_.size()) != size())
-    throw InputError(fmt::format("{}: found {} coordinates, expected {}", options_.name,
-                                 coordinates_.size(), size()));
-  touched_row_.assign(coordinates_.size(), -1);
-  if (bodies_.liner) {
-    find_ends(bodies_.liner->grid);
-    const LinerAxial liner{at_.axial(), at_.liner_fit() + 2};
-    axial_ = axial_motion(size(), at_.pin(), bodies_.liner_axial, &liner);
-  } else {
-    axial_ = axial_motion(size(), at_.pin(), bodies_.bore_axis, nullptr);
-  }
-  if (options_.liner_layer) {
-    LinerLayerOptions& layer = *options_.liner_layer;
-    layer.bottom = std::max(layer.bottom, options_.ends.bottom);
-    layer.top = std::min(layer.top, options_.ends.top);
-  }
-  if (options_.warm_clearance)
-    options_.clearance =
-        options_.warm_clearance->minimum - nearest_point(options_, *options_.warm_clearance).gap;
-  height_by_y_.setZero(size());
-  for (const auto& [coordinate, factor] : axial_.height) height_by_y_[coordinate] += factor;
-  for (const auto* shapes : {&options_.scaled_bore, &options_.scaled_skirt})
+      model_(std::move(options), std::move(bodies), static_cast<int>(coordinates_.size())),
+      stroke_(model_.bodies.stroke),
+      touched_row_(coordinates_.size(), -1) {
+  for (const auto* shapes : {&model_.options.scaled_bore, &model_.options.scaled_skirt})
     for (const ScaledShape& shape : *shapes) scales_.add(shape.scale);
-  if (options_.span == SkirtSpan::kWhole) {
-    add_pad("skirt", 0.0);
+  if (model_.options.span == SkirtSpan::kWhole) {
+    pads_.push_back(std::make_unique<Pad>(model_, "skirt", 0.0));
   } else {
-    add_pad("thrust", 0.0);
-    add_pad("antithrust", std::numbers::pi);
+    pads_.push_back(std::make_unique<Pad>(model_, "thrust", 0.0));
+    pads_.push_back(std::make_unique<Pad>(model_, "antithrust", std::numbers::pi));
   }
   check_recesses();
 }
 
-void PistonLiner::add_pad(const char* name, double centre) {
-  const ContactEffects& on = options_.effects;
-  const PadGrid grid = make_grid(options_, centre);
-  pads_.push_back(std::make_unique<Pad>(name, grid, GapMap(bodies_, at_, grid, height_by_y_)));
-  Pad& pad = *pads_.back();
-  pad.rest = options_.clearance + skirt_relief(options_.skirt, grid);
-  Eigen::ArrayXd slope = Eigen::ArrayXd::Zero(grid.size()), skirt = slope;
-  for (const LinerShape& shape : options_.skirt_shapes)
-    LinerShapeMap(shape, grid).add(0.0, skirt, slope);
-  pad.rest -= skirt;
-  if (!options_.recesses.empty()) add_recesses(pad);
-  if (options_.bore) pad.liner_shapes.emplace_back(*options_.bore, grid);
-  for (const LinerShape& shape : options_.bore_shapes) pad.liner_shapes.emplace_back(shape, grid);
-  if (!scales_.empty()) {
-    pad.scaled.emplace(grid);
-    for (const ScaledShape& scaled : options_.scaled_bore) pad.scaled->add_bore(scaled.shape);
-    for (const ScaledShape& scaled : options_.scaled_skirt) pad.scaled->add_skirt(scaled.shape);
-  }
-  if (std::isfinite(options_.ends.bottom) || std::isfinite(options_.ends.top))
-    pad.ends.emplace(options_.ends, grid);
-  if (on.film) {
-    const Edge open = Edge::supply(viscosity_->reduced(options_.supply_pressure),
-                                   options_.supply_fill, options_.oil_thickness);
-    pad.film.emplace(grid, Edges{open, open, open, open, open}, options_);
-  }
-  if (options_.liner_layer) pad.layer.emplace(*options_.liner_layer, grid);
-  if (on.asperities)
-    for (Eigen::ArrayXd* values : {&pad.contact, &pad.contact_slope, &pad.contact_energy})
-      values->setZero(grid.size());
-  if (damping_)
-    for (Eigen::ArrayXd* values : {&pad.contact_rate_slope, &pad.contact_loss})
-      values->setZero(grid.size());
-  if (!on.friction) return;
-  pad.friction.emplace(options_.friction, grid.size());
-  pad.levers.resize(grid.size(), 3);
-  for (int i = 0; i < grid.n_angle(); ++i) {
-    const Eigen::Vector2d arm =
-        bodies_.bore_axis + grid.radius() * pad_normal(grid.angle(i)).head<2>();
-    for (int j = 0; j < grid.n_axial(); ++j)
-      pad.levers.row(grid.cell(i, j)) << 1.0, arm.y(), -arm.x();
+void PistonLiner::check_recesses() const {
+  const PistonLinerOptions& options = model_.options;
+  const double row = (options.skirt_top - options.skirt_bottom) / options.cells_along;
+  for (size_t k = 0; k < options.recesses.size(); ++k) {
+    const Recess& one = options.recesses[k];
+    const auto fail = [&](const std::string& what) {
+      throw InputError(fmt::format("{}: recess {}: {}", options.name, k + 1, what));
+    };
+    if (!(one.pressure >= 0.0)) fail(fmt::format("found {} Pa, expected >= 0", one.pressure));
+    if (!(one.fill >= 0.0 && one.fill <= 1.0))
+      fail(fmt::format("found a fill of {}, expected 0 to 1", one.fill));
+    if (one.pressure > 0.0 && one.fill < 1.0)
+      fail(fmt::format("found a fill of {} under pressure, expected 1", one.fill));
+    if (one.kind == Recess::Kind::kWindow && one.on_liner)
+      fail("found a window of the liner, expected a groove: with fill 0 for a port");
+    if (one.on_liner && !(one.top - one.bottom >= row))
+      fail(fmt::format("found a height of {:.4g} m, expected at least a row of cells, {:.4g} m",
+                       one.top - one.bottom, row));
+    int cells = 0;
+    for (const auto& pad : pads_) cells += pad->gap().cells_of_recess(k);
+    if (cells == 0)
+      fail("the recess covers no cell: it is smaller than a cell or outside the pads");
   }
 }
 
-void PistonLiner::check() const {
-  const PistonLinerOptions& o = options_;
-  auto share = [](double value) { return value >= 0.0 && value <= 1.0; };
-  require(o.effects.film || o.effects.asperities, o.name, "effects", 0.0,
-          "film or asperities on: otherwise nothing separates skirt and liner");
-  const double clearance = o.warm_clearance ? o.warm_clearance->minimum : o.clearance;
-  require(clearance >= 0.0, o.name, "clearance", clearance, ">= 0 m");
-  require(o.bore_radius > 0.0, o.name, "bore_radius", o.bore_radius, "> 0 m");
-  require(o.skirt_top > o.skirt_bottom, o.name, "skirt_top", o.skirt_top, "above skirt_bottom");
-  require(o.pad_span > 0.0 && o.pad_span <= std::numbers::pi, o.name, "pad_span", o.pad_span,
-          "between 0 and pi rad");
-  require(o.span == SkirtSpan::kPads || (o.cells_around >= kLeastAround && o.cells_around % 2 == 0),
-          o.name, "cells_around", o.cells_around,
-          "an even number of at least 8 around the entire skirt");
-  require(!o.effects.film || o.viscosity > 0.0, o.name, "viscosity", o.viscosity, "> 0 Pa s");
-  require(share(o.initial_fill), o.name, "initial_fill", o.initial_fill, "0 to 1");
-  require(share(o.supply_fill), o.name, "supply_fill", o.supply_fill, "0 to 1");
-  require(o.oil_thickness > 0.0, o.name, "oil_thickness", o.oil_thickness, "> 0 m");
-  require(o.supply_pressure >= 0.0, o.name, "supply_pressure", o.supply_pressure, ">= 0 Pa");
-  require(!o.liner_layer || std::isfinite(o.oil_thickness), o.name, "oil_thickness",
-          o.oil_thickness, "finite: the layer on the liner at the start");
-  require(!o.liner_layer || (o.supply_pressure == 0.0 && o.supply_fill == 1.0), o.name,
-          "supply_fill", o.supply_fill,
-          "1, and no supply pressure: the layer on the liner supplies the skirt");
-  require(!o.liner_layer || o.effects.cavitation, o.name, "cavitation", 0.0,
-          "on: the layer on the liner does not fill the gap");
-  require(o.oil.pressure_coefficient >= 0.0 && o.oil.pressure_coefficient < 1e-6, o.name,
-          "pressure_coefficient", o.oil.pressure_coefficient, "0 to 1e-6 1/Pa");
-  require(static_cast<bool>(bodies_.stroke), o.name, "stroke", 0.0, "a stroke law");
-}
-
-double PistonLiner::stroke_height(double position, const Eigen::VectorXd& y) const {
-  double height = position;
-  for (const auto& [coordinate, factor] : axial_.height) height += factor * y[coordinate];
-  return height;
-}
-
-// Cover, gap and their derivatives at one state; `position` is the pin centre's ideal engine z,
-// `scales` the factors of the shapes that have one.
-void PistonLiner::update_gap(Pad& pad, double position, const std::vector<ScaleState>& scales,
-                             const Eigen::VectorXd& y) {
-  const double height = stroke_height(position, y);
-  if (pad.ends) update_cover(pad, height);
-  pad.gap = pad.rest;
-  pad.gap_by_height.setZero();
-  for (const LinerShapeMap& shape : pad.liner_shapes) shape.add(height, pad.gap, pad.gap_by_height);
-  if (pad.scaled) pad.scaled->add(height, scales, pad.gap, pad.gap_by_height);
-  pad.map.move(height);
-  pad.map.add(y, pad.gap, pad.gap_by_height);
-  if (pad.recesses) place_recesses(pad, position);
+void PistonLiner::begin_step(double time) {
+  step_begin_ = time;
+  for (const auto& pad : pads_)
+    if (pad->film()) pad->film()->begin_step();
 }
 
 void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& y,
                            const Eigen::VectorXd& v, bool with_tangent,
                            dynamics::Response& response) {
-  stroke_ = stroke_at(stage);
+  at_stage_ = stroke_.at(stage);
   if (!scales_.empty()) scaled_ = scales_.at(stage);
+  const double travel = model_.options.liner_layer ? stroke_.travel(stage) : 0.0;
+  const PadState now{stage,
+                     at_stage_,
+                     model_.height(at_stage_.position, y),
+                     model_.height(at_stage_.velocity, v),
+                     travel,
+                     scaled_,
+                     y,
+                     v};
+  if (!running_ && model_.options.effects.film) {  // from the start, y~ = y - kappa v
+    const double begin = stage.time - stage.kappa;
+    const StrokeState stroke = stroke_.exact(begin);
+    const Eigen::VectorXd y_begin = y - stage.kappa * v;
+    const std::vector<ScaleState> scales = scales_.exact(begin);
+    const PadState start{stage,   stroke, model_.height(stroke.position, y_begin), 0.0, 0.0, scales,
+                         y_begin, v};
+    for (const auto& pad : pads_) pad->start(start);
+  }
   parallel_tasks(static_cast<int>(pads_.size()),
-                 [&](int k) { evaluate_pad(*pads_[k], stage, y, v, with_tangent); });
-  collect(with_tangent, response);
-}
-
-void PistonLiner::evaluate_pad(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
-                               const Eigen::VectorXd& v, bool with_tangent) {
-  if (pad.film && !running_) start_content(pad, stage, y, v);
-  update_gap(pad, stroke_.position, scaled_, y);
-  if (!pad.gap.allFinite())
-    throw dynamics::StepRefused(options_.name + ": gap is not finite", pad.place());
-  pad.map.rows(1.0, 0.0, pad.gap_by_height, pad.gap_by_y);
-  pad.map.gather(v, pad.v);
-  pad.load.setZero();
-  if (pad.friction) pad.friction->clear(pad.ends ? &pad.cover : nullptr);
-  if (pad.film) solve_film(pad, stage, stroke_.velocity);
-  if (asperity_) update_contact(pad);
-  if (pad.friction) update_friction(pad, stroke_.velocity);
-  update_force(pad);
+                 [&](int k) { pads_[k]->evaluate(now, !running_, with_tangent); });
+  response.force.setZero(size());
+  for (const auto& pad : pads_) pad->add_force(response.force);
+  list_touched(response);
   if (!with_tangent) return;
-  if (damping_) update_rate_tangent(pad, stage.kappa, v);
-  update_tangent(pad);
+  response.tangent.setZero(touched_count_, touched_count_);
+  for (const auto& pad : pads_) pad->add_tangent(touched_row_, response.tangent);
 }
 
-// The content at the start is the gap at the start, y~ = y - kappa v, filled by the scene's
-// fraction, or the layer on the liner. Streamers need twice the layer to carry its flux.
-void PistonLiner::start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
-                                const Eigen::VectorXd& v) {
-  const Eigen::VectorXd y_start = y - stage.kappa * v;
-  const double start = stage.time - stage.kappa;
-  update_gap(pad, bodies_.stroke(start).position, scales_.exact(start), y_start);
-  if (lowest_gap(pad) <= rough_->lowest_gap())
-    throw InputError(fmt::format(
-        "{}: found a smallest gap of {:.3g} m at the start, expected more than {:.3g} m",
-        options_.name, lowest_gap(pad), rough_->lowest_gap()));
-  rough_->thicknesses(pad.gap, pad.film->cells);
-  const double layers = options_.cavity == Cavity::kLayer ? 1.0 : 2.0;
-  pad.film->oil.start(
-      (options_.initial_fill * pad.film->cells.content).min(layers * options_.oil_thickness) *
-      pad.area / pad.grid.area());
-  if (!pad.layer) return;
-  pad.layer->layer.start(bodies_.stroke(stage.time - stage.kappa).position, options_.oil_thickness);
-  pad.layer->first = pad.layer->layer.volume() + (pad.film->oil.content() * pad.grid.area()).sum();
-}
-
-void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double speed) {
-  PadFilm& film = *pad.film;
-  const double lowest = lowest_gap(pad);
-  if (lowest <= rough_->lowest_gap()) refuse_gap(pad, lowest);
-  rough_->thicknesses(pad.gap, film.cells);
-  if (viscosity_->varies()) {
-    viscosity_->ratio(pad.grid, stroke_.position, speed, film.cells, film.viscosity_ratio,
-                      film.viscosity_ratio_slope);
-    divide_conductance(film.viscosity_ratio, film.viscosity_ratio_slope, film.cells);
+// The coordinates of both pads, ascending; none where they are all.
+void PistonLiner::list_touched(dynamics::Response& response) {
+  std::fill(touched_row_.begin(), touched_row_.end(), -1);
+  for (const auto& pad : pads_)
+    for (const int column : pad->columns()) touched_row_[column] = 0;
+  response.touched.clear();
+  for (int i = 0; i < size(); ++i) {
+    int& row = touched_row_[i];
+    if (row < 0) continue;
+    row = static_cast<int>(response.touched.size());
+    response.touched.push_back(i);
   }
-  // The liner slides past the grid at -U: the mean wall velocity is half of that.
-  FilmStage inner{stage.kappa, options_.viscosity, 0.0, -0.5 * speed, false, options_.bulk_modulus};
-  if (running_) inner.profile_before = &film.oil.profile();
-  inner.cavity = options_.cavity;
-  if (pad.ends) inner.cover = &pad.cover;
-  if (pad.recesses) inner.recesses = &pad.recesses->cells;
-  if (pad.layer) meet_layer(pad, stage);
-  solve_film_equations(pad, stage, inner);
-  pad.load += pad.area * film.pressure();
+  touched_count_ = static_cast<int>(response.touched.size());
+  if (touched_count_ == size()) response.touched.clear();
 }
 
-void PistonLiner::refuse_gap(const Pad& pad, double lowest) const {
-  const auto carrying = pad.carrying();
-  int cell = 0;
-  while (!(carrying[cell] && pad.gap[cell] == lowest)) ++cell;
-  throw dynamics::StepRefused(
-      options_.name + ": gap below the film's minimum",
-      fmt::format("{:.3g} m on the {} at {:.1f} deg, {:.1f} mm from the pin", lowest, pad.place(),
-                  pad.grid.angle(cell / pad.grid.n_axial()) * 180.0 / std::numbers::pi,
-                  1e3 * pad.grid.axial(cell % pad.grid.n_axial())));
+void PistonLiner::finish_stage(const dynamics::Stage& stage) {
+  if (model_.options.liner_layer) travel_ = stroke_.travel(stage);
+  stroke_.finish_stage(stage);
+  scales_.finish_stage(stage);
+  for (const auto& pad : pads_)
+    if (pad->film()) pad->film()->finish_stage(pad->gap(), stage);
 }
 
-void PistonLiner::solve_film_equations(Pad& pad, const dynamics::Stage& stage,
-                                       const FilmStage& inner) {
-  PadFilm& film = *pad.film;
-  try {
-    pad.film_solves +=
-        film.reynolds.solve(film.cells, film.oil.before(film.reynolds, stage.weights), inner);
-  } catch (const NumericsError& error) {
-    throw dynamics::StepRefused(options_.name + ": the film's equations were not solved",
-                                fmt::format("{}: {}", pad.place(), error.what()));
+void PistonLiner::accept_step(double time) {
+  running_ = true;
+  std::vector<double> left;  // by the rings
+  if (model_.options.liner_layer) {
+    const StrokeState stroke = stroke_.exact(time);
+    for (const RingOptions& ring : model_.options.liner_layer->rings)
+      left.push_back(ring_layer(ring, model_.viscosity->at_height(stroke.position + ring.height),
+                                stroke.velocity, ring.gas_load ? ring.gas_load(time) : 0.0));
   }
-  if (viscosity_->pressure_coefficient() > 0.0 &&
-      !viscosity_->pressure(film.reynolds.pressure(), film.thick_pressure, film.thickening))
-    throw dynamics::StepRefused(options_.name + ": no film pressure carries the load",
-                                fmt::format("{}: {:.3g} Pa reduced pressure", pad.place(),
-                                            film.reynolds.pressure().maxCoeff()));
+  for (const auto& pad : pads_)
+    if (pad->film()) pad->film()->accept_step(time - step_begin_, travel_, left);
 }
 
-void PistonLiner::update_friction(Pad& pad, double speed) {
-  if (pad.film) {
-    PadFilm& film = *pad.film;
-    rough_->shear(pad.gap, film.cells, film.shear);
-    if (viscosity_->varies())
-      multiply_shear(film.viscosity_ratio, film.viscosity_ratio_slope, film.shear.inverse,
-                     film.shear.inverse_slope);
-    FilmPressure pressure{film.pressure()};
-    if (film.thickening.size() > 0) {
-      pressure.thickening = &film.thickening;
-      pressure.coefficient = viscosity_->pressure_coefficient();
-    }
-    pad.friction->add_film(film.reynolds, pressure, film.shear, options_.viscosity, speed);
-  }
-  if (asperity_)
-    pad.friction->add_contact(pad.grid, pad.contact, pad.contact_slope, pad.contact_rate_slope,
-                              speed);
+dynamics::Power PistonLiner::power(const Eigen::VectorXd&, const Eigen::VectorXd& v) const {
+  dynamics::Power power;
+  for (const auto& pad : pads_) pad->add_power(v, at_stage_.velocity, power);
+  return power;
 }
 
-Eigen::Vector3d PistonLiner::friction_wrench(const Pad& pad) const {
-  return pad.levers.transpose() * pad.friction->force().matrix();
+void PistonLiner::record(dynamics::History& history) const {
+  PadSums sums;
+  for (const auto& pad : pads_) pad->add_sums(sums);
+  const double normal = sums.film_load + sums.contact_load;
+  // All of the skirt may be outside the liner.
+  history.put("film_min", "m", std::isinf(sums.lowest_gap) ? sums.lowest_outside : sums.lowest_gap);
+  history.put("side_force", "N", sums.side);
+  history.put("side_moment", "N m", sums.moment);
+  history.put("friction_force", "N", sums.rubbing);
+  history.put("film_pressure_max", "Pa", sums.film_peak);
+  history.put("contact_pressure_max", "Pa", sums.contact_peak);
+  history.put("asperity_share", "1", normal > 0.0 ? sums.contact_load / normal : 0.0);
+  history.put("film_fill", "1", sums.space > 0.0 ? sums.oil / sums.space : 0.0);
+  record_oil(history);
+}
+
+void PistonLiner::record_oil(dynamics::History& history) const {
+  const std::optional<OilBalance> balance = oil_balance();
+  if (!balance) return;
+  history.put("oil_in_gap", "m3", balance->gap);
+  history.put("oil_on_liner", "m3", balance->liner);
+  history.put("oil_supplied", "m3", balance->supplied);
+  history.put("oil_scraped", "m3", balance->scraped);
+  history.put("oil_dripped", "m3", balance->dripped);
+  history.put("oil_over_sides", "m3", balance->sides);
+  history.put("oil_over_ends", "m3", balance->ends);
+  if (has_grooves(model_.options.recesses)) history.put("oil_into_grooves", "m3", balance->grooves);
+}
+
+std::vector<double> PistonLiner::save() const {
+  std::vector<double> state{running_ ? 1.0 : 0.0};
+  for (const auto& pad : pads_)
+    if (pad->film()) pad->film()->save(state);
+  return state;
+}
+
+void PistonLiner::restore(const std::vector<double>& state) {
+  size_t expected = 1;
+  for (const auto& pad : pads_)
+    if (pad->film()) expected += pad->film()->saved_size();
+  if (state.size() != expected)
+    throw InputError(name() + ": the saved film state has " + std::to_string(state.size()) +
+                     " numbers, expected " + std::to_string(expected));
+  running_ = state[0] != 0.0;
+  auto next = state.begin() + 1;
+  for (const auto& pad : pads_)
+    if (pad->film()) next = pad->film()->restore(next);
+}
+
+std::vector<PadSnapshot> PistonLiner::snapshot() const {
+  std::vector<PadSnapshot> all;
+  for (const auto& pad : pads_) all.push_back(pad->snapshot());
+  return all;
+}
+
+long PistonLiner::film_solves() const {
+  long solves = 0;
+  for (const auto& pad : pads_)
+    if (pad->film()) solves += pad->film()->solves();
+  return solves;
+}
+
+double PistonLiner::film_residual() const {
+  double worst = 0.0;
+  for (const auto& pad : pads_)
+    if (pad->film()) worst = std::max(worst, pad->film()->reynolds().residual());
+  return worst;
+}
+
+std::optional<OilBalance> PistonLiner::oil_balance() const {
+  if (!model_.options.liner_layer) return std::nullopt;
+  OilBalance sum;
+  for (const auto& pad : pads_) sum += pad->film()->layer()->balance();
+  return sum;
 }
 
 }  // namespace clatter::film

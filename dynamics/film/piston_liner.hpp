@@ -1,31 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Mixed lubricated contact between a piston skirt and its liner as a force element.
-#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "dynamics/element/element.hpp"
-#include "dynamics/film/axial_motion.hpp"
-#include "dynamics/film/gap_map.hpp"
-#include "dynamics/film/piston_liner_options.hpp"
-#include "dynamics/film/reynolds.hpp"
+#include "dynamics/film/contact_model.hpp"
+#include "dynamics/film/pad_snapshot.hpp"
+#include "dynamics/film/stroke_steps.hpp"
 
 namespace clatter::film {
 
-/// Fields of one pad at the last evaluated state, n_angle x n_axial each.
-struct PadSnapshot {
-  std::string name;              // "thrust", "antithrust"; "skirt" of the entire one
-  Eigen::VectorXd angle;         // cell centres, from the thrust side [rad]
-  Eigen::VectorXd axial;         // cell centres, z from the pin centre [m]
-  RowMatrix gap;                 // h [m]
-  RowMatrix pressure;            // film [Pa]; empty without film
-  RowMatrix fill;                // theta [1]; empty without film
-  RowMatrix contact_pressure;    // asperities [Pa]; empty without asperities
-  Eigen::VectorXd liner_height;  // cells of the layer on the liner, engine z [m]; empty without
-  RowMatrix liner_oil;           // its thickness, n_angle x cells [m], 0 under the pad
-};
+class Pad;
 
 /// Film, asperity contact and friction between skirt and liner (paper, sections 2.2.2 and 2.2.3).
 ///
@@ -48,7 +36,7 @@ class PistonLiner : public dynamics::ForceElement {
   PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies, std::vector<int> coordinates);
   ~PistonLiner() override;
 
-  std::string name() const override { return options_.name; }
+  std::string name() const override { return model_.options.name; }
   void evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, dynamics::Response& response) override;
   void begin_step(double time) override;
@@ -59,9 +47,9 @@ class PistonLiner : public dynamics::ForceElement {
   std::vector<double> save() const override;
   void restore(const std::vector<double>& state) override;
 
-  int size() const { return at_.size(); }
+  int size() const { return model_.at.size(); }
   std::vector<PadSnapshot> snapshot() const;
-  const PistonLinerOptions& options() const { return options_; }
+  const PistonLinerOptions& options() const { return model_.options; }
   /// Linear solves of the film so far; a measure of the cost of the effect.
   long film_solves() const;
   /// Worst mass residual of the last evaluation (0 without film).
@@ -70,62 +58,20 @@ class PistonLiner : public dynamics::ForceElement {
   std::optional<OilBalance> oil_balance() const;
 
  private:
-  struct Pad;
-  void check() const;
-  void add_pad(const char* name, double centre);
-  void evaluate_pad(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
-                    const Eigen::VectorXd& v, bool with_tangent);
-  void update_gap(Pad& pad, double position, const std::vector<ScaleState>& scales,
-                  const Eigen::VectorXd& y);
   void check_recesses() const;
-  void add_recesses(Pad& pad);
-  void place_recesses(Pad& pad, double position) const;
-  double recess_power(const Pad& pad) const;
-  void find_ends(const rom::ContactGrid& grid);
-  void update_cover(Pad& pad, double height) const;
-  double lowest_gap(const Pad& pad) const;
-  [[noreturn]] void refuse_gap(const Pad& pad, double lowest) const;
-  void solve_film(Pad& pad, const dynamics::Stage& stage, double speed);
-  void solve_film_equations(Pad& pad, const dynamics::Stage& stage, const FilmStage& inner);
-  void meet_layer(Pad& pad, const dynamics::Stage& stage);
-  void accept_layer(Pad& pad, double time);
-  static void balance_oil(Pad& pad);
-  double travel(const dynamics::Stage& stage) const;
-  void start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
-                     const Eigen::VectorXd& v);
-  void update_contact(Pad& pad);
-  void damp_contact(Pad& pad);
-  void update_rate_tangent(Pad& pad, double kappa, const Eigen::VectorXd& v);
-  void update_friction(Pad& pad, double speed);
-  void update_force(Pad& pad) const;
-  void update_tangent(Pad& pad);
-  Eigen::Matrix3Xd friction_tangent(const Pad& pad) const;
-  void collect(bool with_tangent, dynamics::Response& response);
   void list_touched(dynamics::Response& response);
-  double end_force(const Pad& pad) const;
-  void add_end_tangent(Pad& pad) const;
-  StrokeState stroke_at(const dynamics::Stage& stage) const;
-  double stroke_height(double position, const Eigen::VectorXd& y) const;
-  Eigen::Vector3d friction_wrench(const Pad& pad) const;
+  void record_oil(dynamics::History& history) const;
 
-  PistonLinerOptions options_;
-  PistonLinerBodies bodies_;
-  ContactCoordinates at_;
-  Eigen::VectorXd height_by_y_;  // of the pads, n_e
-  AxialMotion axial_;
+  ContactModel model_;
   std::vector<std::unique_ptr<Pad>> pads_;
-  std::unique_ptr<RoughFilm> rough_;
-  std::unique_ptr<Viscosity> viscosity_;
-  std::unique_ptr<Asperity> asperity_;
-  std::unique_ptr<ContactDamping> damping_;
-  StrokeState stroke_;
-  CycleScales scales_;                      // of shapes of bore and skirt
-  std::vector<ScaleState> scaled_;          // at the last stage
-  std::array<double, 4> stroke_rates_{};    // z_B' at the finished stages of this step [m/s]
-  double step_begin_ = 0.0, travel_ = 0.0;  // start of this step [s], stroke up to its last stage
-                                            // [m]; with the layer on the liner
-  bool running_ = false;                    // false: the content is still the initial one
-  std::vector<int> touched_row_;            // of a coordinate in the response's tangent; -1: none
+  StrokeSteps stroke_;
+  CycleScales scales_;              // of shapes of bore and skirt
+  StrokeState at_stage_;            // of the last stage
+  std::vector<ScaleState> scaled_;  // at the last stage
+  double step_begin_ = 0.0;         // start of this step [s]
+  double travel_ = 0.0;             // stroke up to its last stage [m]; with the layer on the liner
+  bool running_ = false;            // false: the content is still the initial one
+  std::vector<int> touched_row_;    // of a coordinate in the response's tangent; -1: none
   int touched_count_ = 0;
 };
 

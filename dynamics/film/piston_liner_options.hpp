@@ -18,6 +18,7 @@
 #include "dynamics/film/recess.hpp"
 #include "dynamics/film/reynolds.hpp"
 #include "dynamics/film/roughness.hpp"
+#include "dynamics/film/stroke_steps.hpp"
 #include "dynamics/film/viscosity.hpp"
 #include "dynamics/film/warm_clearance.hpp"
 
@@ -80,15 +81,6 @@ struct PistonLinerOptions {
   AsperityOptions asperity;
   ContactDampingOptions damping;
   FrictionOptions friction;
-};
-
-/// Whether film and reservoirs exchange oil.
-bool has_grooves(const PistonLinerOptions& options);
-
-/// Stroke position and velocity of the piston's reference point (pin centre) along engine z.
-struct StrokeState {
-  double position = 0.0;  // z_B [m]
-  double velocity = 0.0;  // dz_B/dt [m/s]
 };
 
 /// The bodies in contact. Coordinates of the element, in this order:

@@ -13,6 +13,11 @@ constexpr double kNarrow = 1e-6;
 
 }  // namespace
 
+bool has_grooves(const std::vector<Recess>& recesses) {
+  return std::any_of(recesses.begin(), recesses.end(),
+                     [](const Recess& one) { return one.kind == Recess::Kind::kGroove; });
+}
+
 RecessMap::RecessMap(std::vector<Recess> recesses, const PadGrid& pad)
     : recesses_(std::move(recesses)), pad_(pad) {}
 

@@ -27,6 +27,9 @@ struct Recess {
   double fill = 1.0;  // of the oil in a groove, 0 to 1; 1 where pressure > 0
 };
 
+/// Whether film and reservoirs exchange oil.
+bool has_grooves(const std::vector<Recess>& recesses);
+
 /// The recesses at the cells of a pad, n each.
 struct RecessCells {
   /// Covered fraction of the cell's height. 1: the film has `pressure` and, in a groove, `fill`.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "dynamics/film/balance_slopes.hpp"
 
 namespace clatter::film {
 namespace {
@@ -15,217 +16,247 @@ namespace {
 // full film that moves by one cell in each solve crosses the grid in one.
 constexpr int kSolvesPerCell = 10;
 constexpr int kLeastSolves = 200;
-// Rounding level of p / p_max, of theta - 1 and of theta / theta* - 1: below it a cell or a face on
-// the border keeps its state.
-constexpr double kBorder = 1e-13;
 
 }  // namespace
 
-void FilmCells::resize(int n) {
-  for (Eigen::ArrayXd* values : {&content, &d_content, &flow_angle, &d_flow_angle, &flow_axial,
-                                 &d_flow_axial, &carry, &d_carry})
-    values->setZero(n);
-}
-
-void FilmCells::set_smooth(const Eigen::ArrayXd& h) {
-  for (Eigen::ArrayXd* values : {&content, &flow_angle, &flow_axial, &carry}) *values = h;
-  for (Eigen::ArrayXd* values : {&d_content, &d_flow_angle, &d_flow_axial, &d_carry})
-    values->setOnes(h.size());
-}
-
 Reynolds::Reynolds(const PadGrid& grid, const Edges& edges, bool cavitation, bool reservoirs)
-    : grid_(grid), edges_(edges), cavitation_(cavitation), reservoirs_(reservoirs) {
-  build_faces();
-  number_cells();
-  const int n = grid_.size();
-  full_.assign(n, 1);
-  storage_.setZero(n);
-  squeeze_.setZero(n);
-  before_.setZero(n);
+    : cavitation_(cavitation),
+      terms_(PadFaces(grid, edges, reservoirs)),
+      split_(terms_.pad()),
+      lu_(grid.size(), terms_.pad().band()) {
+  const int n = grid.size();
   x_.setZero(n);
-  pressure_.setZero(n);
   fill_.setOnes(n);
-  scratch_.setZero(n);
-  magnitude_.setZero(n);
-  conduct_.resize(faces_.size());
-  carry_.resize(faces_.size());
-  lift_.assign(faces_.size(), 0.0);
-  limited_.assign(faces_.size(), 0);
-  ratio_.assign(faces_.size(), 1.0);
-  rim_limited_.assign(rims_.size(), 0);
-  rim_ratio_.assign(rims_.size(), 1.0);
-  end_limited_.assign(n, 0);
-  covered_.setZero(n);
-  rim_conduct_.resize(rims_.size());
-  rim_carry_.resize(rims_.size());
-  rim_entering_.resize(rims_.size());
-  if (reservoirs_) exchange_.setZero(n);
-  flows_.setZero(static_cast<Eigen::Index>(faces_.size() + rims_.size()) +
-                 (reservoirs_ ? 2 : 1) * n);
-}
-
-void Reynolds::build_faces() {
-  const int n_i = grid_.n_angle(), n_j = grid_.n_axial();
-  for (int i = 0; i < n_i; ++i)
-    for (int j = 0; j + 1 < n_j; ++j)
-      faces_.push_back({grid_.cell(i, j), grid_.cell(i, j + 1), grid_.arc(i),
-                        0.5 * (grid_.height(j) + grid_.height(j + 1)), true,
-                        j > 0 ? grid_.cell(i, j - 1) : -1,
-                        j + 2 < n_j ? grid_.cell(i, j + 2) : -1});
-  auto around = [this, n_i](int i, int j) {
-    if (grid_.periodic()) return grid_.cell((i + n_i) % n_i, j);
-    return i >= 0 && i < n_i ? grid_.cell(i, j) : -1;
-  };
-  for (int i = 0; i + (grid_.periodic() ? 0 : 1) < n_i; ++i)
-    for (int j = 0; j < n_j; ++j) {
-      const int next = (i + 1) % n_i;
-      faces_.push_back({grid_.cell(i, j), grid_.cell(next, j), grid_.height(j),
-                        0.5 * (grid_.arc(i) + grid_.arc(next)), false, around(i - 1, j),
-                        around(i + 2, j)});
-    }
-  auto add_rim = [this](int cell, double length, double distance, double sign, bool axial,
-                        const Edge& edge) {
-    if (edge.kind == Edge::Kind::kPressure)
-      rims_.push_back({cell, length, distance, sign, axial, edge});
-  };
-  for (int i = 0; i < n_i; ++i) {
-    add_rim(grid_.cell(i, 0), grid_.arc(i), 0.5 * grid_.height(0), -1.0, true, edges_.axial_begin);
-    add_rim(grid_.cell(i, n_j - 1), grid_.arc(i), 0.5 * grid_.height(n_j - 1), 1.0, true,
-            edges_.axial_end);
-  }
-  if (grid_.periodic()) return;
-  for (int j = 0; j < n_j; ++j) {
-    add_rim(grid_.cell(0, j), grid_.height(j), 0.5 * grid_.arc(0), -1.0, false, edges_.angle_begin);
-    add_rim(grid_.cell(n_i - 1, j), grid_.height(j), 0.5 * grid_.arc(n_i - 1), 1.0, false,
-            edges_.angle_end);
-  }
-}
-
-// The short side varies fastest. Around a closed ring the columns are taken alternately from both
-// ends of the angular range, so that closing the ring only doubles the band.
-void Reynolds::number_cells() {
-  const int n_i = grid_.n_angle(), n_j = grid_.n_axial();
-  row_.resize(grid_.size());
-  const int axial_band = grid_.periodic() ? 2 * n_j : n_j;
-  for (int i = 0; i < n_i; ++i) {
-    const int folded = grid_.periodic() ? (2 * i < n_i ? 2 * i : 2 * (n_i - 1 - i) + 1) : i;
-    for (int j = 0; j < n_j; ++j)
-      row_[grid_.cell(i, j)] = axial_band <= n_i ? folded * n_j + j : j * n_i + i;
-  }
-  int band = 0;
-  for (const Face& face : faces_) band = std::max(band, std::abs(row_[face.a] - row_[face.b]));
-  lu_ = BandedLu(grid_.size(), band);
-}
-
-// The states of the last solution, of the content when there is none.
-void Reynolds::guess_split() {
-  if (!started_ && !stage_.steady)
-    for (int c = 0; c < grid_.size(); ++c) full_[c] = before_[c] >= storage_[c];
-  if (stage_.recesses != nullptr) guess_recesses();
-  for (size_t f = 0; f < faces_.size(); ++f) {
-    const double theta = fill_[upstream_of(f)];
-    limited_[f] = within_window(f) ? false
-                  : layers()       ? ratio_[f] * theta > 1.0
-                                   : lift_[f] != 0.0 && theta < lowest_lifted(f);
-  }
-  for (size_t r = 0; r < rims_.size(); ++r)
-    rim_limited_[r] = rim_ratio_[r] * fill_[rims_[r].cell] > 1.0;
-  if (!partial_) return;
-  for (int c = 0; c < grid_.size(); ++c) {
-    if (is(CellKind::kOutside, c)) full_[c] = 1;
-    end_limited_[c] = 2.0 * film_.content[c] * fill_[c] > film_.carry[c];
-  }
-}
-
-// Changes states whose unknown violates its bound: cells by number, then faces, open edges and
-// ends; true when there were any.
-bool Reynolds::update_split() {
-  const int n = grid_.size(), n_faces = static_cast<int>(faces_.size()),
-            n_rims = static_cast<int>(rims_.size());
-  auto value = [this](int cell) { return x_[row_[cell]]; };
-  double highest = 0.0;
-  for (int c = 0; c < n; ++c)
-    if (is_full(c)) highest = std::max(highest, value(c));
-  violated_.clear();
-  for (int c = 0; c < n; ++c)
-    if (!in_recess(c) && (is_full(c) ? value(c) < -kBorder * highest : value(c) > 1.0 + kBorder))
-      violated_.push_back(c);
-  // A full cell carries as much as its face takes, and so at first when it cavitates.
-  for (size_t f = 0; f < faces_.size(); ++f) {
-    const int upstream = upstream_of(f);
-    if (layers() && is_full(upstream)) limited_[f] = 1;
-    if (!is_full(upstream) && violates_limit(f, value(upstream)))
-      violated_.push_back(n + static_cast<int>(f));
-  }
-  for (size_t r = 0; layers() && r < rims_.size(); ++r) {
-    const int cell = rims_[r].cell;
-    if (is_full(cell)) rim_limited_[r] = 1;
-    if (rim_carry_[r] <= 0.0 || is_full(cell)) continue;
-    const double excess = rim_ratio_[r] * value(cell) - 1.0;
-    if (rim_limited_[r] != 0 ? excess < -kBorder : excess > kBorder)
-      violated_.push_back(n + n_faces + static_cast<int>(r));
-  }
-  for (int c = 0; layers() && partial_ && c < n; ++c) {
-    char& limited = end_limited_[c];
-    if (is_full(c)) limited = 1;
-    if (covered_[c] >= 0.0 || is_full(c)) continue;
-    const double excess = 2.0 * value(c) * film_.content[c] / film_.carry[c] - 1.0;
-    if (limited != 0 ? excess < -kBorder : excess > kBorder)
-      violated_.push_back(n + n_faces + n_rims + c);
-  }
-  if (violated_.empty()) return false;
-  violated_.resize(search_.count(violated_));
-  for (int state : violated_) {
-    if (state < n)
-      full_[state] ^= 1;
-    else if (state < n + n_faces)
-      limited_[state - n] ^= 1;
-    else if (state < n + n_faces + n_rims)
-      rim_limited_[state - n - n_faces] ^= 1;
-    else
-      end_limited_[state - n - n_faces - n_rims] ^= 1;
-  }
-  return true;
-}
-
-// A state within rounding of its bound stays.
-bool Reynolds::violates_limit(size_t face, double theta) const {
-  if (carry_[face] == 0.0 || within_window(face)) return false;
-  const bool limited = limited_[face] != 0;
-  if (layers()) {
-    const double excess = ratio_[face] * theta - 1.0;
-    return limited ? excess < -kBorder : excess > kBorder;
-  }
-  if (lift_[face] == 0.0) return false;
-  const double lowest = lowest_lifted(face), excess = theta - lowest;
-  return limited ? excess > kBorder * lowest : excess < -kBorder * lowest;
+  for (Eigen::ArrayXd* values : {&pressure_, &balance_, &magnitude_}) values->setZero(n);
+  flows_.setZero(terms_.pad().flow_count());
 }
 
 int Reynolds::solve(const FilmCells& film, const Eigen::ArrayXd& content_before,
                     const FilmStage& stage) {
-  film_ = film;
-  stage_ = stage;
-  weigh(film, content_before, stage);
-  if (cavitation_) guess_split();
-  started_ = true;
-  search_.start();
-  const int limit = kLeastSolves + kSolvesPerCell * (grid_.n_angle() + grid_.n_axial());
+  terms_.set(film, content_before, stage);
+  if (cavitation_) split_.guess(terms_, fill_);
+  const int limit = kLeastSolves + kSolvesPerCell * (grid().n_angle() + grid().n_axial());
   for (int iteration = 1; iteration <= limit; ++iteration) {
     assemble();
     if (!lu_.factor())
       throw NumericsError("film: singular Reynolds matrix: a cell has neither storage nor flow");
     lu_.solve(x_.data());
     if (!x_.allFinite()) throw NumericsError("film: the Reynolds solution is not finite");
-    if (!cavitation_ || !update_split()) {
+    if (!cavitation_ || !split_.update(terms_, x_)) {
       unpack();
       measure();
       return iteration;
     }
   }
-  started_ = false;
-  std::fill(full_.begin(), full_.end(), char{1});
+  split_.forget();
   throw NumericsError(
       fmt::format("film: no split into full and cavitated cells found in {} solves", limit));
+}
+
+// The row of a cell outside the liner or in a groove holds only what is given.
+void Reynolds::add(int cell, int unknown, double value) {
+  if (!terms_.extent().is_given(cell))
+    lu_.at(terms_.pad().row(cell), terms_.pad().row(unknown)) += value;
+}
+
+void Reynolds::give(int cell, double value) {
+  if (!terms_.extent().is_given(cell)) x_[terms_.pad().row(cell)] += value;
+}
+
+void Reynolds::assemble() {
+  lu_.set_zero();
+  assemble_cells();
+  assemble_flows();
+  if (terms_.pad().grooves()) assemble_grooves();
+  if (terms_.extent().partial()) assemble_ends();
+}
+
+void Reynolds::assemble_cells() {
+  const FilmExtent& extent = terms_.extent();
+  const double pressure_scale = terms_.pressure_scale();
+  for (int c = 0; c < grid().size(); ++c) {
+    const bool full = is_full(c);
+    const int row = terms_.pad().row(c);
+    if (!extent.is_given(c)) {
+      x_[row] = terms_.before()[c];
+      if (full) x_[row] -= terms_.storage()[c];
+      lu_.at(row, row) += full ? terms_.squeeze()[c] : terms_.storage()[c];
+      continue;
+    }
+    const RecessCells* recesses = terms_.stage().recesses;
+    x_[row] = extent.is(CellKind::kOutside, c) ? terms_.pad().liner_end().pressure / pressure_scale
+              : full                           ? recesses->pressure[c] / pressure_scale
+                                               : recesses->fill[c];
+    lu_.at(row, row) = 1.0;
+  }
+}
+
+void Reynolds::assemble_flows() {
+  for (size_t f = 0; f < terms_.faces().size(); ++f) {
+    const FaceTerms& face = terms_.faces()[f];
+    const int a = face.a, b = face.b, upstream = face.upstream();
+    if (is_full(a)) {
+      add(a, a, face.conduct);
+      add(b, a, -face.conduct);
+    }
+    if (is_full(b)) {
+      add(b, b, face.conduct);
+      add(a, b, -face.conduct);
+    }
+    const FillLaw law = split_.on_face(terms_, f);
+    const double lifted = face.carry * law.empty, rest = face.carry * law.full - lifted;
+    give(a, -lifted);
+    give(b, lifted);
+    if (is_full(upstream)) continue;
+    add(a, upstream, rest);
+    add(b, upstream, -rest);
+  }
+  for (size_t r = 0; r < terms_.rims().size(); ++r) {
+    const RimTerms& rim = terms_.rims()[r];
+    const int c = rim.cell;
+    give(c, rim.conduct * rim.pressure / terms_.pressure_scale());
+    if (is_full(c)) add(c, c, rim.conduct);
+    if (rim.carry > 0.0) {
+      const FillLaw law = split_.on_rim(terms_, r);
+      give(c, -(rim.carry * law.empty));
+      add(c, c, rim.carry * (law.full - law.empty));
+    } else {
+      give(c, -rim.entering);
+    }
+  }
+}
+
+void Reynolds::assemble_grooves() {
+  for (int c = 0; c < grid().size(); ++c) {
+    const double exchange = terms_.exchange(c);
+    if (exchange == 0.0) continue;
+    give(c, exchange * terms_.stage().recesses->pressure[c] / terms_.pressure_scale());
+    if (is_full(c)) add(c, c, exchange);
+  }
+}
+
+void Reynolds::assemble_ends() {
+  for (int c = 0; c < grid().size(); ++c) {
+    const double covered = terms_.covered(c), area = std::abs(covered);
+    if (covered == 0.0) continue;
+    const FillLaw law = split_.at_end(terms_, c);
+    give(c, -area * (is_full(c) ? law.full : law.empty));
+    if (!is_full(c))
+      add(c, c, area * (law.full - law.empty));
+    else if (covered < 0.0 && terms_.compressible())
+      add(c, c,
+          area * terms_.film().content[c] * terms_.pressure_scale() / terms_.stage().bulk_modulus);
+  }
+}
+
+void Reynolds::unpack() {
+  const FilmExtent& extent = terms_.extent();
+  for (int c = 0; c < grid().size(); ++c) {
+    const double value = x_[terms_.pad().row(c)];
+    const bool full = is_full(c);
+    pressure_[c] =
+        full ? (cavitation_ ? std::max(value, 0.0) : value) * terms_.pressure_scale() : 0.0;
+    // Beyond the bounds by rounding; a window holds more than its own gap.
+    fill_[c] = extent.is(CellKind::kOutside, c) ? 0.0
+               : full                           ? 1.0
+                      : std::clamp(value, 0.0, extent.is(CellKind::kWindow, c) ? INFINITY : 1.0);
+  }
+}
+
+// Balance of each cell with the returned values, relative to its own terms.
+void Reynolds::measure() {
+  const double pressure_scale = terms_.pressure_scale();
+  balance_ =
+      terms_.storage() * fill_ + terms_.squeeze() * pressure_ / pressure_scale - terms_.before();
+  magnitude_ = terms_.storage() * fill_.abs() + terms_.before().abs();
+  const double flow_scale = terms_.volume_scale() / terms_.stage().duration();
+  for (size_t f = 0; f < terms_.faces().size(); ++f) {
+    const FaceTerms& face = terms_.faces()[f];
+    const int a = face.a, b = face.b;
+    const double carried = face.carry * split_.on_face(terms_, f).at(fill_[face.upstream()]);
+    const double flow = face.conduct * (pressure_[a] - pressure_[b]) / pressure_scale + carried;
+    const double size =
+        face.conduct * (std::abs(pressure_[a]) + std::abs(pressure_[b])) / pressure_scale +
+        std::abs(carried);
+    flows_[PadFaces::face_flow(f)] = flow * flow_scale;
+    balance_[a] += flow;
+    balance_[b] -= flow;
+    magnitude_[a] += size;
+    magnitude_[b] += size;
+  }
+  outflow_ = 0.0;
+  for (size_t r = 0; r < terms_.rims().size(); ++r) {
+    const RimTerms& rim = terms_.rims()[r];
+    const int c = rim.cell;
+    const double carried =
+        rim.carry > 0.0 ? rim.carry * split_.on_rim(terms_, r).at(fill_[c]) : rim.entering;
+    const double flow = rim.conduct * (pressure_[c] - rim.pressure) / pressure_scale + carried;
+    balance_[c] += flow;
+    magnitude_[c] +=
+        rim.conduct * (std::abs(pressure_[c]) + rim.pressure) / pressure_scale + std::abs(carried);
+    flows_[terms_.pad().rim_flow(r)] = flow * flow_scale;
+    outflow_ += flow;
+  }
+  residual_ = 0.0;
+  for (int c = 0; c < grid().size(); ++c) measure_cell(c, flow_scale);
+  outflow_ *= terms_.volume_scale();
+}
+
+// The flows out of a cell that no other cell takes, and its residual.
+void Reynolds::measure_cell(int cell, double flow_scale) {
+  const PadFaces& pad = terms_.pad();
+  const FilmExtent& extent = terms_.extent();
+  double over_end = extent.partial()
+                        ? std::abs(terms_.covered(cell)) *
+                              split_.end_thickness(terms_, cell, fill_[cell], pressure_[cell])
+                        : 0.0;
+  balance_[cell] += over_end;
+  magnitude_[cell] += std::abs(over_end);
+  double into_groove = 0.0;
+  if (const double exchange = terms_.exchange(cell); exchange > 0.0) {
+    const double groove = terms_.stage().recesses->pressure[cell];
+    into_groove = exchange * (pressure_[cell] - groove) / terms_.pressure_scale();
+    balance_[cell] += into_groove;
+    magnitude_[cell] += exchange * (pressure_[cell] + groove) / terms_.pressure_scale();
+  }
+  if (extent.is(CellKind::kGroove, cell))
+    into_groove = -balance_[cell];
+  else if (extent.is(CellKind::kOutside, cell))
+    over_end = -balance_[cell];
+  else if (magnitude_[cell] > 0.0)
+    residual_ = std::max(residual_, std::abs(balance_[cell]) / magnitude_[cell]);
+  flows_[pad.end_flow(cell)] = over_end * flow_scale;
+  if (pad.grooves()) flows_[pad.groove_flow(cell)] = into_groove * flow_scale;
+  outflow_ += over_end + into_groove;
+}
+
+Eigen::ArrayXd Reynolds::density() const { return terms_.density(pressure_, fill_); }
+
+Eigen::ArrayXd Reynolds::profile() const {
+  if (!terms_.layers()) return fill_;
+  return (fill_ * terms_.film().content).min(0.5 * terms_.film().carry);
+}
+
+ValueSlope Reynolds::sheared(int cell) const {
+  const FilmExtent& extent = terms_.extent();
+  if (extent.in_recess(cell)) return {0.0, 0.0};
+  const double land =
+      extent.is(CellKind::kBesideGroove, cell) ? 1.0 - terms_.stage().recesses->share[cell] : 1.0;
+  if (is_full(cell) || !terms_.layers()) return {land * fill_[cell], is_full(cell) ? 0.0 : land};
+  const bool both_walls = fill_[cell] > 0.5;
+  return {both_walls ? land * (2.0 * fill_[cell] - 1.0) : 0.0, both_walls ? land * 2.0 : 0.0};
+}
+
+void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative,
+                             const Eigen::VectorXd* height) {
+  const int k = static_cast<int>(dh.cols());
+  slopes_.setZero(grid().size(), BandedLu::padded(k));
+  BalanceSlopes(terms_, split_, pressure_, fill_).subtract(dh, height, slopes_);
+  lu_.solve_rows(slopes_.data(), static_cast<int>(slopes_.cols()));
+  derivative.resize(grid().size(), k);
+  for (int c = 0; c < grid().size(); ++c)
+    derivative.row(c) =
+        (is_full(c) ? terms_.pressure_scale() : 1.0) * slopes_.row(terms_.pad().row(c)).head(k);
 }
 
 }  // namespace clatter::film

@@ -171,7 +171,8 @@ double hump_error(int cells, const dynamics::Tableau& A) {
   const auto speed = [](double t) {
     return 0.1 * std::numbers::pi * std::sin(2.0 * std::numbers::pi * t);
   };
-  Eigen::ArrayXd lower, upper, moved;
+  OutsideLayers outside;
+  Eigen::ArrayXd moved;
   double rates[3] = {0.0, 0.0, 0.0};
   for (int k = 0; k < steps; ++k) {
     const double t = k * dt;
@@ -187,15 +188,15 @@ double hump_error(int cells, const dynamics::Tableau& A) {
       if (k > 0) stage.profile_before = &oil.profile();
       travel = A.d * dt * rates[i];
       for (size_t j = 0; j < weights.size(); ++j) travel += weights[j] * rates[j];
-      layer.meet(travel, lower, upper);
-      film.set_outside_layers(lower, upper);
+      layer.meet(travel, outside.begin, outside.end);
+      stage.outside = &outside;
       film.solve(film_cells, oil.before(film, weights), stage);
       oil.volumes(film, weights, stage.kappa, moved);
       oil.finish_stage(film, film_cells.content, i, stage.kappa);
     }
     oil.accept_step();
     EdgeVolumes edges;
-    film.add_up_edges(moved, edges);
+    film.pad().add_up_edges(moved, edges);
     layer.advance(dt, travel, edges, {});
   }
   const Eigen::ArrayXXd last = layer.thickness();
