@@ -78,6 +78,8 @@ struct PistonLiner::Pad {
   Eigen::VectorXd v;                // of the columns, k
   Eigen::VectorXd force;            // on the columns, k
   RowMatrix tangent;                // of the force, k x k
+  Eigen::VectorXd force_by_turn;    // of the force by the rotation of a free crank, k
+  Eigen::Vector3d rub_by_turn;      // of the wrench of friction
   RowMatrix gap_directions;         // dh/dy for the film, n x k
   RowMatrix derivative;             // dx/dy of the film, then d(load)/dy, n x k
   std::vector<LinerShapeMap> liner_shapes;

@@ -71,13 +71,15 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
   if (static_cast<int>(coordinates_.size()) != size())
     throw InputError(fmt::format("{}: found {} coordinates, expected {}", options_.name,
                                  coordinates_.size(), size()));
+  bodies_.crank.join(coordinates_);
   touched_row_.assign(coordinates_.size(), -1);
+  const auto n = static_cast<int>(coordinates_.size());
   if (bodies_.liner) {
     find_ends(bodies_.liner->grid);
     const LinerAxial liner{at_.axial(), at_.liner_fit() + 2};
-    axial_ = axial_motion(size(), at_.pin(), bodies_.liner_axial, &liner);
+    axial_ = axial_motion(n, at_.pin(), bodies_.liner_axial, &liner);
   } else {
-    axial_ = axial_motion(size(), at_.pin(), bodies_.bore_axis, nullptr);
+    axial_ = axial_motion(n, at_.pin(), bodies_.bore_axis, nullptr);
   }
   if (options_.liner_layer) {
     LinerLayerOptions& layer = *options_.liner_layer;
@@ -180,11 +182,11 @@ double PistonLiner::stroke_height(double position, const Eigen::VectorXd& y) con
   return height;
 }
 
-// Cover, gap and their derivatives at one state; `position` is the pin centre's ideal engine z,
-// `scales` the factors of the shapes that have one.
-void PistonLiner::update_gap(Pad& pad, double position, const std::vector<ScaleState>& scales,
-                             const Eigen::VectorXd& y) {
-  const double height = stroke_height(position, y);
+// Cover, gap and their derivatives at one state; `scales` are the factors of the shapes that have
+// one.
+void PistonLiner::update_gap(Pad& pad, const Heights& heights,
+                             const std::vector<ScaleState>& scales, const Eigen::VectorXd& y) {
+  const double height = stroke_height(heights.clock, y);
   if (pad.ends) update_cover(pad, height);
   pad.gap = pad.rest;
   pad.gap_by_height.setZero();
@@ -192,14 +194,14 @@ void PistonLiner::update_gap(Pad& pad, double position, const std::vector<ScaleS
   if (pad.scaled) pad.scaled->add(height, scales, pad.gap, pad.gap_by_height);
   pad.map.move(height);
   pad.map.add(y, pad.gap, pad.gap_by_height);
-  if (pad.recesses) place_recesses(pad, position);
+  if (pad.recesses) place_recesses(pad, heights.crank);
 }
 
 void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& y,
                            const Eigen::VectorXd& v, bool with_tangent,
                            dynamics::Response& response) {
-  stroke_ = stroke_at(stage);
-  if (!scales_.empty()) scaled_ = scales_.at(stage);
+  find_stroke(stage, y, v);
+  if (!scales_.empty()) scaled_ = scales_.at(stage, lead_);
   parallel_tasks(static_cast<int>(pads_.size()),
                  [&](int k) { evaluate_pad(*pads_[k], stage, y, v, with_tangent); });
   collect(with_tangent, response);
@@ -208,20 +210,21 @@ void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& 
 void PistonLiner::evaluate_pad(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                                const Eigen::VectorXd& v, bool with_tangent) {
   if (pad.film && !running_) start_content(pad, stage, y, v);
-  update_gap(pad, stroke_.position, scaled_, y);
+  update_gap(pad, {stroke_.position, ideal_.position}, scaled_, y);
   if (!pad.gap.allFinite())
     throw dynamics::StepRefused(options_.name + ": gap is not finite", pad.place());
   pad.map.rows(1.0, 0.0, pad.gap_by_height, pad.gap_by_y);
   pad.map.gather(v, pad.v);
   pad.load.setZero();
   if (pad.friction) pad.friction->clear(pad.ends ? &pad.cover : nullptr);
-  if (pad.film) solve_film(pad, stage, stroke_.velocity);
+  if (pad.film) solve_film(pad, stage);
   if (asperity_) update_contact(pad);
-  if (pad.friction) update_friction(pad, stroke_.velocity);
+  if (pad.friction) update_friction(pad);
   update_force(pad);
   if (!with_tangent) return;
   if (damping_) update_rate_tangent(pad, stage.kappa, v);
   update_tangent(pad);
+  if (bodies_.crank.is_free()) update_crank_column(pad);
 }
 
 // The content at the start is the gap at the start, y~ = y - kappa v, filled by the scene's
@@ -230,7 +233,9 @@ void PistonLiner::start_content(Pad& pad, const dynamics::Stage& stage, const Ei
                                 const Eigen::VectorXd& v) {
   const Eigen::VectorXd y_start = y - stage.kappa * v;
   const double start = stage.time - stage.kappa;
-  update_gap(pad, bodies_.stroke(start).position, scales_.exact(start), y_start);
+  const Heights heights{bodies_.stroke(start).position,
+                        bodies_.stroke(start + lead_.begin.position).position};
+  update_gap(pad, heights, scales_.exact(start, lead_.begin), y_start);
   if (lowest_gap(pad) <= rough_->lowest_gap())
     throw InputError(fmt::format(
         "{}: found a smallest gap of {:.3g} m at the start, expected more than {:.3g} m",
@@ -241,17 +246,18 @@ void PistonLiner::start_content(Pad& pad, const dynamics::Stage& stage, const Ei
       (options_.initial_fill * pad.film->cells.content).min(layers * options_.oil_thickness) *
       pad.area / pad.grid.area());
   if (!pad.layer) return;
-  pad.layer->layer.start(bodies_.stroke(stage.time - stage.kappa).position, options_.oil_thickness);
+  pad.layer->layer.start(heights.crank, options_.oil_thickness);
   pad.layer->first = pad.layer->layer.volume() + (pad.film->oil.content() * pad.grid.area()).sum();
 }
 
-void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double speed) {
+void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage) {
+  const double speed = ideal_.velocity;
   PadFilm& film = *pad.film;
   const double lowest = lowest_gap(pad);
   if (lowest <= rough_->lowest_gap()) refuse_gap(pad, lowest);
   rough_->thicknesses(pad.gap, film.cells);
   if (viscosity_->varies()) {
-    viscosity_->ratio(pad.grid, stroke_.position, speed, film.cells, film.viscosity_ratio,
+    viscosity_->ratio(pad.grid, ideal_.position, speed, film.cells, film.viscosity_ratio,
                       film.viscosity_ratio_slope);
     divide_conductance(film.viscosity_ratio, film.viscosity_ratio_slope, film.cells);
   }
@@ -294,7 +300,8 @@ void PistonLiner::solve_film_equations(Pad& pad, const dynamics::Stage& stage,
                                             film.reynolds.pressure().maxCoeff()));
 }
 
-void PistonLiner::update_friction(Pad& pad, double speed) {
+void PistonLiner::update_friction(Pad& pad) {
+  const double speed = ideal_.velocity;
   if (pad.film) {
     PadFilm& film = *pad.film;
     rough_->shear(pad.gap, film.cells, film.shear);

@@ -42,9 +42,16 @@ struct PadSnapshot {
 /// asperity pressure.
 /// Friction acts at the wall, at the bore's radius. Forces and moments on both bodies cancel, with
 /// the levers of the ideal position: pin at z_B(t), bore's axis at `bore_axis` from it.
+///
+/// With a free crank the pin's coordinate counts from the stroke of the clock, and so z is exact as
+/// it is. The speed at which skirt and liner slide, the oil that is dragged, grooves of the liner,
+/// the height that viscosity has, and factors of shapes are those at the angle of the crank. Of the
+/// derivatives by this angle the tangent has that by the sliding speed, which grows as 1 / kappa,
+/// other than of viscosity and of the layer on the liner.
 class PistonLiner : public dynamics::ForceElement {
  public:
-  /// `coordinates`: in the order of PistonLinerBodies. InputError for parameters out of range.
+  /// `coordinates`: in the order of PistonLinerBodies, without that of a free crank. InputError for
+  /// parameters out of range.
   PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies, std::vector<int> coordinates);
   ~PistonLiner() override;
 
@@ -75,7 +82,11 @@ class PistonLiner : public dynamics::ForceElement {
   void add_pad(const char* name, double centre);
   void evaluate_pad(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                     const Eigen::VectorXd& v, bool with_tangent);
-  void update_gap(Pad& pad, double position, const std::vector<ScaleState>& scales,
+  /// Heights of the pin [m].
+  struct Heights {
+    double clock, crank;  // from which its coordinate counts; of the ideal pin
+  };
+  void update_gap(Pad& pad, const Heights& heights, const std::vector<ScaleState>& scales,
                   const Eigen::VectorXd& y);
   void check_recesses() const;
   void add_recesses(Pad& pad);
@@ -85,7 +96,7 @@ class PistonLiner : public dynamics::ForceElement {
   void update_cover(Pad& pad, double height) const;
   double lowest_gap(const Pad& pad) const;
   [[noreturn]] void refuse_gap(const Pad& pad, double lowest) const;
-  void solve_film(Pad& pad, const dynamics::Stage& stage, double speed);
+  void solve_film(Pad& pad, const dynamics::Stage& stage);
   void solve_film_equations(Pad& pad, const dynamics::Stage& stage, const FilmStage& inner);
   void meet_layer(Pad& pad, const dynamics::Stage& stage);
   void accept_layer(Pad& pad, double time);
@@ -96,15 +107,17 @@ class PistonLiner : public dynamics::ForceElement {
   void update_contact(Pad& pad);
   void damp_contact(Pad& pad);
   void update_rate_tangent(Pad& pad, double kappa, const Eigen::VectorXd& v);
-  void update_friction(Pad& pad, double speed);
+  void update_friction(Pad& pad);
   void update_force(Pad& pad) const;
   void update_tangent(Pad& pad);
+  void update_crank_column(Pad& pad) const;
   Eigen::Matrix3Xd friction_tangent(const Pad& pad) const;
   void collect(bool with_tangent, dynamics::Response& response);
   void list_touched(dynamics::Response& response);
   double end_force(const Pad& pad) const;
   void add_end_tangent(Pad& pad) const;
-  StrokeState stroke_at(const dynamics::Stage& stage) const;
+  void find_stroke(const dynamics::Stage& stage, const Eigen::VectorXd& y,
+                   const Eigen::VectorXd& v);
   double stroke_height(double position, const Eigen::VectorXd& y) const;
   Eigen::Vector3d friction_wrench(const Pad& pad) const;
 
@@ -118,10 +131,13 @@ class PistonLiner : public dynamics::ForceElement {
   std::unique_ptr<Viscosity> viscosity_;
   std::unique_ptr<Asperity> asperity_;
   std::unique_ptr<ContactDamping> damping_;
-  StrokeState stroke_;
-  CycleScales scales_;                      // of shapes of bore and skirt
-  std::vector<ScaleState> scaled_;          // at the last stage
-  std::array<double, 4> stroke_rates_{};    // z_B' at the finished stages of this step [m/s]
+  StrokeState stroke_, ideal_;  // of the clock, from which the pin counts; of the ideal pin
+  dynamics::CrankLead lead_;
+  double slide_by_turn_ = 0.0;      // of the ideal pin's velocity by the coordinate of a free crank
+  CycleScales scales_;              // of shapes of bore and skirt
+  std::vector<ScaleState> scaled_;  // at the last stage
+  // z_B' by the clock and of the ideal pin at the finished stages of this step [m/s].
+  std::array<double, 4> stroke_rates_{}, ideal_rates_{};
   double step_begin_ = 0.0, travel_ = 0.0;  // start of this step [s], stroke up to its last stage
                                             // [m]; with the layer on the liner
   bool running_ = false;                    // false: the content is still the initial one

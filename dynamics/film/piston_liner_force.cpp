@@ -62,24 +62,46 @@ void PistonLiner::update_tangent(Pad& pad) {
   pad.tangent += cross * height.transpose() + height * cross.transpose();
 }
 
-// The coordinates of both pads, ascending; none where they are all.
+// By the rotation of the crank: what the sliding speed U changes of film and friction.
+void PistonLiner::update_crank_column(Pad& pad) const {
+  Eigen::ArrayXd by_turn = Eigen::ArrayXd::Zero(pad.grid.size()), load = by_turn;
+  if (pad.film) {
+    pad.film->reynolds.speed_sensitivity(by_turn);
+    by_turn *= -0.5 * slide_by_turn_;                         // the mean wall velocity is -U / 2
+    const Eigen::ArrayXd& thickening = pad.film->thickening;  // dp/dP of full cells
+    for (int c = 0; c < pad.grid.size(); ++c) {
+      if (!pad.film->reynolds.is_full(c)) continue;
+      if (thickening.size() > 0) by_turn[c] *= thickening[c];
+      load[c] = pad.area[c] * by_turn[c];
+    }
+  }
+  pad.force_by_turn = pad.gap_by_y.transpose() * load.matrix();
+  if (!pad.friction) return;
+  by_turn *= pad.friction->film_slope();
+  by_turn += slide_by_turn_ * pad.friction->speed_slope();
+  pad.rub_by_turn = pad.levers.transpose() * by_turn.matrix();
+}
+
+// The coordinates of both pads and the crank's, ascending; none where they are all.
 void PistonLiner::list_touched(dynamics::Response& response) {
   std::fill(touched_row_.begin(), touched_row_.end(), -1);
   for (const auto& pad : pads_)
     for (const int column : pad->map.columns()) touched_row_[column] = 0;
   response.touched.clear();
-  for (int i = 0; i < size(); ++i) {
+  if (bodies_.crank.is_free()) touched_row_[size()] = 0;
+  const auto n = static_cast<int>(coordinates_.size());
+  for (int i = 0; i < n; ++i) {
     int& row = touched_row_[i];
     if (row < 0) continue;
     row = static_cast<int>(response.touched.size());
     response.touched.push_back(i);
   }
   touched_count_ = static_cast<int>(response.touched.size());
-  if (touched_count_ == size()) response.touched.clear();
+  if (touched_count_ == n) response.touched.clear();
 }
 
 void PistonLiner::collect(bool with_tangent, dynamics::Response& response) {
-  response.force.setZero(size());
+  response.force.setZero(std::ssize(coordinates_));
   for (const auto& pad : pads_) {
     const std::vector<int>& columns = pad->map.columns();
     for (size_t i = 0; i < columns.size(); ++i)
@@ -96,6 +118,12 @@ void PistonLiner::collect(bool with_tangent, dynamics::Response& response) {
       for (size_t i = 0; i < columns.size(); ++i)
         response.tangent(touched_row_[columns[i]], touched_row_[columns[j]]) +=
             pad->tangent(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    if (!bodies_.crank.is_free()) continue;
+    for (size_t i = 0; i < columns.size(); ++i) {
+      double& entry = response.tangent(touched_row_[columns[i]], n - 1);
+      entry += pad->force_by_turn(static_cast<Eigen::Index>(i));
+      if (pad->friction) entry += axial_.slide.col(columns[i]).dot(pad->rub_by_turn);
+    }
   }
 }
 

@@ -6,12 +6,11 @@ namespace clatter::film {
 
 // From the start of the step to this stage, as the film's speed has it.
 double PistonLiner::travel(const dynamics::Stage& stage) const {
-  double elapsed = stage.kappa;
-  for (double weight : stage.weights) elapsed += weight;
-  const double start = bodies_.stroke(stage.time - elapsed).velocity;
-  double sum = stage.kappa * bodies_.stroke(stage.time).velocity;
+  const double start =
+      bodies_.stroke(stage.begin() + lead_.begin.position).velocity * (1.0 + lead_.begin.velocity);
+  double sum = stage.kappa * ideal_.velocity;
   for (size_t j = 0; j < stage.weights.size(); ++j)
-    sum += stage.weights[j] * (j == 0 ? start : stroke_rates_.at(j));
+    sum += stage.weights[j] * (j == 0 ? start : ideal_rates_.at(j));
   return sum;
 }
 
@@ -23,11 +22,13 @@ void PistonLiner::meet_layer(Pad& pad, const dynamics::Stage& stage) {
 
 void PistonLiner::accept_layer(Pad& pad, double time) {
   PadLayer& on_liner = *pad.layer;
-  const StrokeState stroke = bodies_.stroke(time);
+  const double at_crank = time + lead_.now.position;
+  const StrokeState stroke = bodies_.stroke(at_crank);
+  const double speed = stroke.velocity * (1.0 + lead_.now.velocity);
   std::vector<double> left;
   for (const RingOptions& ring : options_.liner_layer->rings)
-    left.push_back(ring_layer(ring, viscosity_->at_height(stroke.position + ring.height),
-                              stroke.velocity, ring.gas_load ? ring.gas_load(time) : 0.0));
+    left.push_back(ring_layer(ring, viscosity_->at_height(stroke.position + ring.height), speed,
+                              ring.gas_load ? ring.gas_load(at_crank) : 0.0));
   pad.film->reynolds.add_up_edges(on_liner.moved, on_liner.volumes);
   if (has_grooves(options_)) {
     pad.recesses->moved += on_liner.volumes.recesses;

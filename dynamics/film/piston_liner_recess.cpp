@@ -76,7 +76,7 @@ double PistonLiner::recess_power(const Pad& pad) const {
   for (Eigen::Index c = 0; c < pad.gap.size(); ++c)
     if (cells.share_slope[c] != 0.0)
       power -= pad.area[c] * cells.share_slope[c] * asperity_->at(pad.gap[c]).energy;
-  return power * stroke_.velocity;
+  return power * ideal_.velocity;
 }
 
 }  // namespace clatter::film

@@ -17,20 +17,24 @@ void PistonLiner::begin_step(double time) {
 // z_B is integrated by the tableau as y is, from its exact value at the start of the step. The
 // pressure of a full film follows from dh/dt; the difference of two exact gaps would be the rate at
 // another instant, and with SDIRK2 the pressure only of first order.
-StrokeState PistonLiner::stroke_at(const dynamics::Stage& stage) const {
-  double elapsed = stage.kappa;
-  for (double weight : stage.weights) elapsed += weight;
-  const StrokeState start = bodies_.stroke(stage.time - elapsed);
-  StrokeState now = bodies_.stroke(stage.time);
-  now.position = start.position + stage.kappa * now.velocity;
+void PistonLiner::find_stroke(const dynamics::Stage& stage, const Eigen::VectorXd& y,
+                              const Eigen::VectorXd& v) {
+  lead_ = bodies_.crank.lead(stage, y, v);
+  const StrokeState start = bodies_.stroke(stage.begin()), now = bodies_.stroke(stage.time),
+                    led_to = bodies_.stroke(stage.time + lead_.now.position);
+  stroke_ = {start.position + stage.kappa * now.velocity, now.velocity};
   for (size_t j = 0; j < stage.weights.size(); ++j)
-    now.position += stage.weights[j] * (j == 0 ? start.velocity : stroke_rates_.at(j));
-  return now;
+    stroke_.position += stage.weights[j] * (j == 0 ? start.velocity : stroke_rates_.at(j));
+  const dynamics::Motion<double> ideal{led_to.position, led_to.velocity, led_to.acceleration};
+  ideal_ = {stroke_.position + (ideal.position - now.position),
+            dynamics::led(ideal, lead_.now).velocity};
+  slide_by_turn_ = dynamics::led_by_turn(ideal, lead_).velocity;
 }
 
 void PistonLiner::finish_stage(const dynamics::Stage& stage) {
   if (options_.liner_layer) travel_ = travel(stage);
-  stroke_rates_.at(stage.index) = bodies_.stroke(stage.time).velocity;
+  stroke_rates_.at(stage.index) = stroke_.velocity;
+  ideal_rates_.at(stage.index) = ideal_.velocity;
   scales_.finish_stage(stage);
   for (const auto& pad : pads_) {
     if (!pad->film) continue;

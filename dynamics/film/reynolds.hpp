@@ -178,6 +178,8 @@ class Reynolds {
   /// by how much each moves the pad past the ends of the liner; null: none does.
   void sensitivities(const RowMatrix& dh, RowMatrix& derivative,
                      const Eigen::VectorXd* height = nullptr);
+  /// The same by the mean wall velocity along the axis [s/m], n; 0 where the wall reverses.
+  void speed_sensitivity(Eigen::ArrayXd& derivative);
 
   const PadGrid& grid() const { return grid_; }
   bool cavitation() const { return cavitation_; }

@@ -87,4 +87,30 @@ void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative,
     derivative.row(c) = (is_full(c) ? pressure_scale_ : 1.0) * row(c);
 }
 
+// What the wall carries is proportional to its speed.
+void Reynolds::speed_sensitivity(Eigen::ArrayXd& derivative) {
+  derivative.setZero(grid_.size());
+  const double speed = stage_.speed_axial;
+  if (speed == 0.0) return;
+  for (size_t f = 0; f < faces_.size(); ++f) {
+    if (!faces_[f].axial) continue;
+    const double flow = carry_[f] * fill_on_face(f);
+    derivative[faces_[f].a] -= flow;
+    derivative[faces_[f].b] += flow;
+  }
+  for (size_t r = 0; r < rims_.size(); ++r)
+    if (rims_[r].axial)
+      derivative[rims_[r].cell] -=
+          rim_carry_[r] > 0.0 ? rim_carry_[r] * fill_on_rim(r) : rim_entering_[r];
+  work_.setZero(grid_.size(), BandedLu::padded(1));
+  for (int c = 0; c < grid_.size(); ++c) {
+    if (is_given(c)) continue;
+    if (partial_) derivative[c] -= std::abs(covered_[c]) * end_thickness(c);
+    work_(row_[c], 0) = derivative[c] / speed;
+  }
+  lu_.solve_rows(work_.data(), static_cast<int>(work_.cols()));
+  for (int c = 0; c < grid_.size(); ++c)
+    derivative[c] = (is_full(c) ? pressure_scale_ : 1.0) * work_(row_[c], 0);
+}
+
 }  // namespace clatter::film
