@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/body/crank_port.hpp"
 #include "dynamics/component/run_time.hpp"
 #include "dynamics/crank/mean_torque.hpp"
+#include "dynamics/element/crank_angle.hpp"
 #include "dynamics/element/element.hpp"
 #include "dynamics/element/table_force.hpp"
 #include "dynamics/given/spline.hpp"
@@ -37,16 +37,18 @@ class CrankLoad : public ForceElement, public TableForce {
                 bool with_tangent, Response& response) override;
   bool has_table() const override { return law_.table.has_value(); }
   TurningAngle table_angle(double time, const Eigen::VectorXd& y,
-                           const Eigen::VectorXd& v) const override;
+                           const Eigen::VectorXd& v) const override {
+    return crank_.at(time, y(0), v(0));
+  }
   double next_row(double angle) const override { return law_.table->next_point(angle); }
   double by_table(double time, const TurningAngle& at) const override {
-    return -sign_ * ramp_(time) * (*law_.table)(at.angle);
+    return -crank_.sign() * ramp_(time) * (*law_.table)(at.angle);
   }
   void begin_step(double time) override;
   void finish_stage(const Stage&) override { finished_ = last_; }
   void accept_step(double time) override;
   Power power(const Eigen::VectorXd&, const Eigen::VectorXd& v) const override {
-    return {0.0, 0.0, -sign_ * last_.torque * v(0)};
+    return {0.0, 0.0, -crank_.sign() * last_.torque * v(0)};
   }
   /// `crank_load_torque` [N m], `crank_deviation` [rad] from the clock, `crank_speed` [rad/s].
   void record(History& history) const override;
@@ -55,14 +57,12 @@ class CrankLoad : public ForceElement, public TableForce {
 
  private:
   struct State {
-    double torque = 0.0, angle = 0.0, rate = 0.0;
+    double torque = 0.0, angle = 0.0, rate = 0.0, speed = 0.0;
   };
-  double sign_;
-  CrankClock clock_;
+  CrankAngle crank_;
   CrankLoadLaw law_;
   TimeFunction ramp_;
   State last_, finished_, accepted_;
-  double time_ = 0.0;
 };
 
 }  // namespace clatter::dynamics

@@ -36,4 +36,9 @@ CylinderAxes CylinderBodies::axes() const {
   return {bore, {bore.x() - skirt.x(), offset}};
 }
 
+CrankAngle CylinderBodies::crank_angle(const SliderCrank& crank) const {
+  if (!spec.has_free_crank()) return {};
+  return {crank, model.system.coordinate(model.body(CrankBody::kName), spec.crankshaft->turn())};
+}
+
 }  // namespace clatter::dynamics

@@ -3,6 +3,7 @@
 // The bodies of a cylinder in a model.
 #include "dynamics/component/model_builder.hpp"
 #include "dynamics/cylinder/cylinder_spec.hpp"
+#include "dynamics/element/crank_angle.hpp"
 
 namespace clatter::dynamics {
 
@@ -24,6 +25,9 @@ struct CylinderBodies {
   /// Of a rod with a body: not of a massless one.
   int rod_index() const { return model.body(spec.name_of("rod")); }
   int block_index() const { return model.body("block"); }
+
+  /// The angle of its crank, free or by the clock of `crank`.
+  CrankAngle crank_angle(const SliderCrank& crank) const;
 
   /// The bore's axis is that of the liner's grid; without one it is over the mean of the named
   /// bearings and concentric with the skirt.

@@ -78,17 +78,14 @@ void CylinderComponent::add_elements(ModelBuilder& model) {
     model.system.add_element(std::move(element));
   model.system.add_element(pin_guide(bodies, crank_, pin_));
   gas_ = gas_pressure(spec_);
-  if (spec_.has_free_crank()) {
-    turn_ = model.system.coordinate(model.body(CrankBody::kName), spec_.crankshaft->turn());
-    if (gas_)
-      for (auto& force : gas_forces(bodies, crank_, *gas_))
-        model.system.add_element(std::move(force));
-  }
+  angle_ = bodies.crank_angle(crank_);
+  if (gas_ && angle_.is_free())
+    for (auto& force : gas_forces(bodies, angle_, *gas_))
+      model.system.add_element(std::move(force));
   if (!spec_.contact) return;
   check_scaled_shapes(spec_, bodies.block() != nullptr);
   LinerContact contact = liner_contact(bodies, crank_, pin_, gas_);
-  contact_ = contact.contact;
-  contact_element_ = contact.element.get();
+  contact_ = contact.element.get();
   liner_ = std::move(contact.liner);
   model.system.add_element(std::move(contact.element));
   auto rings = ring_pack(bodies, crank_, pin_, gas_);
@@ -126,8 +123,7 @@ Eigen::Vector2d CylinderComponent::secondary_motion(double time, const Eigen::Ve
   Eigen::Vector2d motion(y(pin_[1]), y(pin_[3]));
   if (liner_) {
     const double tilt = y(liner_->tilt);
-    const double height = turn_ >= 0 ? crank_.piston_pin(time).position + y(pin_[2])
-                                     : crank_.piston_pin(time).position;
+    const double height = crank_.piston_pin(time).position + (angle_.is_free() ? y(pin_[2]) : 0.0);
     motion -= Eigen::Vector2d(y(liner_->lateral) - tilt * height, tilt);
   }
   return motion;
@@ -141,12 +137,13 @@ void CylinderComponent::record(const System& system, const StageState& state,
   history.put("piston_lateral", "m", motion.x());
   history.put("piston_tilt", "rad", motion.y());
   if (gas_)
-    history.put("gas_pressure", "Pa",
-                (*gas_)(crank_angle(crank_, state.time, turn_ >= 0 ? state.y(turn_) : 0.0)));
+    history.put(
+        "gas_pressure", "Pa",
+        (*gas_)(angle_.is_free() ? angle_.of(state.time, state.y) : crank_.angle(state.time)));
   for (int e = elements_.first; e < elements_.end; ++e) {
     const ForceElement& element = system.element(e);
     // The joints' histories have their names, those of contact and rings are the cylinder's.
-    history.set_prefix(&element == contact_element_ || &element == rings_ ? prefix : "");
+    history.set_prefix(&element == contact_ || &element == rings_ ? prefix : "");
     element.record(history);
   }
   history.set_prefix("");

@@ -9,6 +9,7 @@
 #include "dynamics/component/component_interfaces.hpp"
 #include "dynamics/cylinder/cylinder_elements.hpp"
 #include "dynamics/cylinder/cylinder_spec.hpp"
+#include "dynamics/element/crank_angle.hpp"
 #include "dynamics/given/spline.hpp"
 
 namespace clatter::dynamics {
@@ -50,12 +51,12 @@ class CylinderComponent : public Component, public PistonInLiner, public MovingF
   CylinderSpec spec_;
   SliderCrank crank_;
   std::optional<Spline> gas_;
-  int piston_ = -1, rod_ = -1;  // indices in a model
-  int turn_ = -1;               // y index of the rotation of a free crank from that of the clock
+  int piston_ = -1, rod_ = -1;                          // indices in a model
+  CrankAngle angle_;                                    // of a model
   Eigen::Vector2d pin_axis_ = Eigen::Vector2d::Zero();  // (x, y) of the pin's centre [m]
   PinNode pin_{-1, -1, -1, -1, -1, -1};
   const film::PistonLiner* contact_ = nullptr;
-  const ForceElement *contact_element_ = nullptr, *rings_ = nullptr;
+  const ForceElement* rings_ = nullptr;
   std::optional<LinerFit> liner_;
 };
 

@@ -7,7 +7,6 @@
 #include "core/base/error.hpp"
 #include "dynamics/cylinder/clearance.hpp"
 #include "dynamics/cylinder/cylinder_loads.hpp"
-#include "dynamics/cylinder/real_crank_element.hpp"
 #include "dynamics/cylinder/ring_table.hpp"
 #include "dynamics/cylinder/shape_scale.hpp"
 #include "dynamics/element/pin_guide.hpp"
@@ -79,10 +78,9 @@ std::unique_ptr<ForceElement> pin_guide(const CylinderBodies& bodies, const Slid
     block = {system.frame_coordinate(b, 0), system.frame_coordinate(b, 4),
              system.frame_coordinate(b, 5)};
   }
-  const CrankView view(bodies, crank);
-  const GuidePath path = path_of_pin(crank.pin_offset(), view.motion().stroke);
-  return view.follow(std::make_unique<PinGuide>(bodies.spec.name_of("pin_guide"), bodies.spec.guide,
-                                                path, std::array{pin[0], pin[4], pin[5]}, block));
+  return std::make_unique<PinGuide>(bodies.spec.name_of("pin_guide"), bodies.spec.guide,
+                                    path_of_pin(crank), std::array{pin[0], pin[4], pin[5]}, block,
+                                    bodies.crank_angle(crank));
 }
 
 void set_layer_range(const SliderCrank& crank, film::PistonLinerOptions& options) {
@@ -141,27 +139,26 @@ LinerContact liner_contact(const CylinderBodies& bodies, const SliderCrank& cran
     surfaces.liner_axial = axial.at - cylinder.pin;
     coordinates.push_back(axial.coordinate);
   }
-  const CrankView view(bodies, crank);
-  surfaces.stroke = [stroke = view.motion().stroke](double time) {
-    const Motion<double> motion = stroke(time);
-    return film::StrokeState{motion.position, motion.velocity};
+  surfaces.crank = bodies.crank_angle(crank);
+  surfaces.stroke = [crank](double time) {
+    const Motion<double> motion = crank.piston_pin(time);
+    return film::StrokeState{motion.position, motion.velocity, motion.acceleration};
   };
   film::PistonLinerOptions options = *spec.contact;
   options.name = spec.name_of(options.name);
   if (options.liner_layer) {
     set_layer_range(crank, options);
-    load_layer_rings(spec.rings, gauge_pressure(bodies, view.motion(), gas), *options.liner_layer);
+    load_layer_rings(spec.rings, gauge_pressure(bodies, crank, gas), *options.liner_layer);
   }
   if (options.warm_clearance) set_stroke(crank, *options.warm_clearance);
   for (const auto& [specs, shapes] : {std::pair{&spec.scaled_bore, &options.scaled_bore},
                                       {&spec.scaled_skirt, &options.scaled_skirt}})
     for (const ScaledShapeSpec& shape : *specs)
-      shapes->push_back(scaled_shape(shape, spec, view.motion(), gas));
+      shapes->push_back(scaled_shape(shape, spec, crank, gas));
   auto contact = with_context(spec.contact_where, [&] {
     return std::make_unique<film::PistonLiner>(options, surfaces, coordinates);
   });
-  const film::PistonLiner* const found = contact.get();
-  return {view.follow(std::move(contact), along_stroke(pin[2])), found, fit};
+  return {std::move(contact), fit};
 }
 
 }  // namespace clatter::dynamics

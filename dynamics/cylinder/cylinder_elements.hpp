@@ -26,9 +26,8 @@ struct LinerFit {
 
 /// Piston and liner.
 struct LinerContact {
-  std::unique_ptr<ForceElement> element;
-  const film::PistonLiner* contact;  // it, or what it consists of
-  std::optional<LinerFit> liner;     // of an elastic block
+  std::unique_ptr<film::PistonLiner> element;
+  std::optional<LinerFit> liner;  // of an elastic block
 };
 
 /// Sets the heights of the layer on the liner, which `options` has: from below the skirt's lowest

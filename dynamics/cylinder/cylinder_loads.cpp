@@ -12,7 +12,7 @@ namespace {
 
 std::vector<Load> gas_loads(const CylinderBodies& bodies, const SliderCrank& crank,
                             const Spline& gas) {
-  const TimeFunction pressure = gauge_pressure(bodies, clock_motion(crank), gas);
+  const TimeFunction pressure = gauge_pressure(bodies, crank, gas);
   const TimeFunction rows = rows_in_time(
       gas, [crank](double t) { return crank.angle(t); },
       [crank](double angle) { return crank.time(angle); });
@@ -59,13 +59,11 @@ std::optional<Spline> gas_pressure(const CylinderSpec& spec) {
   return read_gas_table(spec.gas->table, spec.gas->column, spec.gas->interpolation);
 }
 
-TimeFunction gauge_pressure(const CylinderBodies& bodies, const CrankMotion& crank,
+TimeFunction gauge_pressure(const CylinderBodies& bodies, const SliderCrank& crank,
                             const std::optional<Spline>& gas) {
   if (!gas) return {};
-  return ramped(bodies.model.time,
-                [turn = crank.turn, table = *gas, ambient = bodies.spec.gas->ambient](double t) {
-                  return table(turn(t).position) - ambient;
-                });
+  return ramped(bodies.model.time, [crank, table = *gas, ambient = bodies.spec.gas->ambient](
+                                       double t) { return table(crank.angle(t)) - ambient; });
 }
 
 std::vector<Load> cylinder_loads(const CylinderBodies& bodies, const SliderCrank& crank,

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "dynamics/cylinder/cylinder_bodies.hpp"
-#include "dynamics/cylinder/real_crank.hpp"
 #include "dynamics/given/crank.hpp"
 #include "dynamics/given/spline.hpp"
 
@@ -15,8 +14,9 @@ namespace clatter::dynamics {
 /// Absolute pressure over the crank angle from firing TDC [Pa] of a cylinder with [gas].
 std::optional<Spline> gas_pressure(const CylinderSpec& spec);
 
-/// Gauge pressure over time [Pa], which grows over the ramp of the start; empty without `gas`.
-TimeFunction gauge_pressure(const CylinderBodies& bodies, const CrankMotion& crank,
+/// Gauge pressure over the time of the clock [Pa], which grows over the ramp of the start; empty
+/// without `gas`.
+TimeFunction gauge_pressure(const CylinderBodies& bodies, const SliderCrank& crank,
                             const std::optional<Spline>& gas);
 
 /// A unit load per Pa of a cylinder's gas.

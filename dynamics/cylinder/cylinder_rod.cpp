@@ -11,7 +11,6 @@
 #include "dynamics/body/elastic_rod.hpp"
 #include "dynamics/body/mechanism_port.hpp"
 #include "dynamics/cylinder/cylinder_catalogue.hpp"
-#include "dynamics/cylinder/real_crank_element.hpp"
 #include "dynamics/element/massless_rod.hpp"
 #include "dynamics/element/pin_guide.hpp"
 #include "dynamics/element/rod_frame.hpp"
@@ -62,14 +61,9 @@ void add_rod_body(const CylinderSpec& spec, ModelBuilder& model) {
 
 Motion<Eigen::Vector2d> rod_centre(const RodProperties& rod, const SliderCrank& crank,
                                    double time) {
-  return rod_centre(rod, crank, crank.turn(time));
-}
-
-Motion<Eigen::Vector2d> rod_centre(const RodProperties& rod, const SliderCrank& crank,
-                                   const Motion<double>& theta) {
-  Motion<Eigen::Vector2d> centre = crank.rod_point(theta, rod.centre);
+  Motion<Eigen::Vector2d> centre = crank.rod_point(time, rod.centre);
   if (rod.offset == 0.0) return centre;
-  const Motion<double> phi = crank.rod_angle(theta);
+  const Motion<double> phi = crank.rod_angle(time);
   const Eigen::Vector2d along = rod_direction(phi.position), side(along.y(), -along.x());
   const double w = phi.velocity;
   centre.position += rod.offset * side;
@@ -115,18 +109,11 @@ std::vector<std::unique_ptr<ForceElement>> elastic_rod_elements(const CylinderBo
   for (int k = kRodPlanar - 1; k < loaded_rod(bodies).modal.modes(); ++k)
     y.push_back(system.modal_coordinate(body, k));
   const RodCoupling& coupling = loaded_rod(bodies).rod->coupling;
-  const CrankView frame(bodies, crank);
   TimeFunction stretch;  // with a free crank at its own speed; else a load of rod_inertia()
   if (spec.has_free_crank()) stretch = ramped(bodies.model.time, [](double) { return 1.0; });
-  const auto turn = [scale = std::sqrt(coupling.inertia)](const SliderCrank& of,
-                                                          const Motion<double>& theta) {
-    const Motion<double> phi = of.rod_angle(theta);  // theta's modal coordinate has unit mass
-    return Motion<double>{scale * phi.position, scale * phi.velocity, scale * phi.acceleration};
-  };
-  elements.push_back(
-      frame.follow(std::make_unique<RodFrame>(spec.name_of("rod frame"), y, coupling,
-                                              frame.motion().rod_angle, std::move(stretch)),
-                   ReferredCoordinate{y[0], turn}));
+  const CrankAngle angle = bodies.crank_angle(crank);
+  elements.push_back(std::make_unique<RodFrame>(spec.name_of("rod frame"), y, coupling, crank,
+                                                std::move(stretch), angle));
   const auto out_of_plane = [&](int of) {
     return std::array{system.frame_coordinate(of, 0), system.frame_coordinate(of, 4),
                       system.frame_coordinate(of, 5)};
@@ -134,13 +121,10 @@ std::vector<std::unique_ptr<ForceElement>> elastic_rod_elements(const CylinderBo
   std::optional<std::array<int, 3>> block;
   if (bodies.block() != nullptr) block = out_of_plane(bodies.block_index());
   GuidePath path;
-  const CrankView guide(bodies, crank);
-  path.point = [rod = spec.engine.rod, crank, turn = guide.motion().turn](double time) {
-    return rod_centre(rod, crank, turn(time));
-  };
-  path.turn = guide.motion().rod_angle;
-  elements.push_back(guide.follow(std::make_unique<PinGuide>(
-      spec.name_of("rod_guide"), spec.guide, std::move(path), out_of_plane(body), block)));
+  path.point = [rod = spec.engine.rod, crank](double time) { return rod_centre(rod, crank, time); };
+  path.turn = [crank](double time) { return crank.rod_angle(time); };
+  elements.push_back(std::make_unique<PinGuide>(spec.name_of("rod_guide"), spec.guide,
+                                                std::move(path), out_of_plane(body), block, angle));
   return elements;
 }
 

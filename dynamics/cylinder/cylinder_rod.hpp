@@ -20,9 +20,6 @@ void add_rod_body(const CylinderSpec& spec, ModelBuilder& model);
 
 /// The rod's centre of mass, (y, z) [m].
 Motion<Eigen::Vector2d> rod_centre(const RodProperties& rod, const SliderCrank& crank, double time);
-/// The same at an angle of the crank.
-Motion<Eigen::Vector2d> rod_centre(const RodProperties& rod, const SliderCrank& crank,
-                                   const Motion<double>& theta);
 
 /// An end of the rod, as joints see it. @param small the small end; else the big end.
 std::unique_ptr<Port> rod_end(const CylinderBodies& bodies, const SliderCrank& crank, bool small);

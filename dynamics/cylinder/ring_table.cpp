@@ -9,7 +9,6 @@
 #include "core/base/units.hpp"
 #include "dynamics/component/component_keys.hpp"
 #include "dynamics/cylinder/cylinder_loads.hpp"
-#include "dynamics/cylinder/real_crank_element.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -111,9 +110,9 @@ std::unique_ptr<ForceElement> ring_pack(const CylinderBodies& bodies, const Slid
   RingPackBodies parts;
   parts.bore_axis = cylinder.bore - cylinder.pin;
   parts.liner_axial = parts.bore_axis;
-  const CrankView view(bodies, crank);
-  parts.stroke = view.motion().stroke;
-  parts.gas = gauge_pressure(bodies, view.motion(), gas);
+  parts.crank = bodies.crank_angle(crank);
+  parts.stroke = [crank](double time) { return crank.piston_pin(time); };
+  parts.gas = gauge_pressure(bodies, crank, gas);
   std::vector<int> coordinates;
   const auto liner = bodies.block() != nullptr ? std::optional(liner_side(bodies)) : std::nullopt;
   if (liner) {
@@ -123,9 +122,7 @@ std::unique_ptr<ForceElement> ring_pack(const CylinderBodies& bodies, const Slid
   }
   coordinates.insert(coordinates.end(), pin.begin(), pin.end());
   if (liner) coordinates.push_back(liner->axial);
-  return view.follow(
-      std::make_unique<RingPack>(std::move(options), std::move(parts), std::move(coordinates)),
-      along_stroke(pin[2]));
+  return std::make_unique<RingPack>(std::move(options), std::move(parts), std::move(coordinates));
 }
 
 }  // namespace clatter::dynamics

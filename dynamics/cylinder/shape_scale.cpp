@@ -51,16 +51,15 @@ const keys::Keys<ShapeScale>& shape_scale_keys() {
 }
 
 film::ScaledShape scaled_shape(const ScaledShapeSpec& spec, const CylinderSpec& cylinder,
-                               const CrankMotion& crank, const std::optional<Spline>& gas) {
+                               const SliderCrank& crank, const std::optional<Spline>& gas) {
   const ShapeScale& scale = spec.scale;
   if (scale.factor)
-    return {spec.shape, [turn = crank.turn, table = *scale.factor](double time) {
-              return scale_at(turn(time), table, 0.0, 1.0);
+    return {spec.shape, [crank, table = *scale.factor](double time) {
+              return scale_at(crank.turn(time), table, 0.0, 1.0);
             }};
   if (!gas) throw InputError(scale.where + ": scale = \"gas\" needs [gas]");
-  return {spec.shape,
-          [turn = crank.turn, table = *gas, ambient = cylinder.gas->ambient,
-           at = scale.reference](double time) { return scale_at(turn(time), table, ambient, at); }};
+  return {spec.shape, [crank, table = *gas, ambient = cylinder.gas->ambient, at = scale.reference](
+                          double time) { return scale_at(crank.turn(time), table, ambient, at); }};
 }
 
 void check_scaled_shapes(const CylinderSpec& cylinder, bool elastic_block) {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/keys/keys.hpp"
-#include "dynamics/cylinder/real_crank.hpp"
 #include "dynamics/film/cycle_scale.hpp"
+#include "dynamics/given/crank.hpp"
 #include "dynamics/given/spline.hpp"
 
 namespace clatter::dynamics {
@@ -32,10 +32,10 @@ struct ScaledShapeSpec {
   ShapeScale scale;
 };
 
-/// The shape with its factor over time. @param gas the cylinder's pressure. InputError for gas that
-/// the scene does not have.
+/// The shape with its factor over the time of the clock. @param gas the cylinder's pressure.
+/// InputError for gas that the scene does not have.
 film::ScaledShape scaled_shape(const ScaledShapeSpec& spec, const CylinderSpec& cylinder,
-                               const CrankMotion& crank, const std::optional<Spline>& gas);
+                               const SliderCrank& crank, const std::optional<Spline>& gas);
 
 /// InputError where a gas deformation is added to a part that is elastic, and so has it already.
 void check_scaled_shapes(const CylinderSpec& cylinder, bool elastic_block);

@@ -8,20 +8,18 @@
 namespace clatter::dynamics {
 
 RodFrame::RodFrame(std::string name, std::vector<int> coordinates, RodCoupling coupling,
-                   const SliderCrank& crank)
-    : RodFrame(std::move(name), std::move(coordinates), std::move(coupling),
-               [crank](double time) { return crank.rod_angle(time); }, {}) {}
-
-RodFrame::RodFrame(std::string name, std::vector<int> coordinates, RodCoupling coupling,
-                   std::function<Motion<double>(double time)> angle,
-                   std::function<double(double time)> stretch)
+                   const SliderCrank& clock, std::function<double(double time)> stretch,
+                   CrankAngle crank)
     : ForceElement(std::move(coordinates)),
       name_(std::move(name)),
-      angle_(std::move(angle)),
+      clock_(clock),
       stretch_(std::move(stretch)),
+      crank_(std::move(crank)),
+      scale_(std::sqrt(coupling.inertia)),
       spin_(Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN())) {
   const Eigen::Index n = coupling.stretch.size();
-  const Eigen::VectorXd g = coupling.stretch / std::sqrt(coupling.inertia);
+  crank_.join(coordinates_);
+  const Eigen::VectorXd g = coupling.stretch / scale_;
   by_square_.setZero(1 + n, 1 + n);
   by_square_.bottomRightCorner(n, n) = coupling.square;
   by_turning_.setZero(1 + n, 1 + n);
@@ -37,24 +35,45 @@ RodFrame::RodFrame(std::string name, std::vector<int> coordinates, RodCoupling c
 
 void RodFrame::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                         bool with_tangent, Response& response) {
-  const Motion<double> angle = angle_(stage.time);
+  const Eigen::Index n = by_square_.rows();
+  const CrankLead lead = crank_.lead(stage, y, v);
+  const Motion<double> ideal = clock_.rod_angle(stage.time + lead.now.position),
+                       angle = led(ideal, lead.now);
   const double w = angle.velocity;
   if (w != spin_.x() || angle.acceleration != spin_.y()) {
     spin_ = {w, angle.acceleration};
     by_y_ = w * w * by_square_ + angle.acceleration * by_turning_;
     by_v_ = w * by_rate_;
   }
-  response.force.noalias() = by_y_ * y;
-  response.force.noalias() += by_v_ * v;
+  rate_ = v.head(n);
+  if (crank_.is_free()) rate_(0) -= apart_ = scale_ * (w - clock_.rod_angle(stage.time).velocity);
+  response.force.setZero(y.size());
+  auto force = response.force.head(n);
+  force.noalias() = by_y_ * y.head(n);
+  force.noalias() += by_v_ * rate_;
+  const double share = stretch_ ? stretch_(stage.time) : 0.0;
   if (stretch_) {
-    load_ = stretch_(stage.time) * w * w * g_;
-    response.force += load_;
+    load_ = share * w * w * g_;
+    force += load_;
   }
-  if (with_tangent) response.tangent = by_y_ + by_v_ / stage.kappa;
+  if (!with_tangent) return;
+  response.tangent.setZero(y.size(), y.size());
+  response.tangent.topLeftCorner(n, n) = by_y_ + by_v_ / stage.kappa;
+  if (!crank_.is_free()) return;
+  const Motion<double> by = led_by_turn(ideal, lead);
+  auto column = response.tangent.col(n).head(n);
+  column = 2.0 * w * by.velocity * (by_square_ * y.head(n));
+  column += by.acceleration * (by_turning_ * y.head(n));
+  column += by.velocity * (by_rate_ * rate_ - scale_ * by_v_.col(0));
+  if (stretch_) column += 2.0 * w * by.velocity * share * g_;
 }
 
 Power RodFrame::power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const {
-  return {0.0, 0.0, v.dot(by_y_ * y + by_v_ * v) + (stretch_ ? load_.dot(v) : 0.0)};
+  const Eigen::Index n = by_square_.rows();
+  const auto own_y = y.head(n), own_v = v.head(n);
+  return {0.0, 0.0,
+          own_v.dot(by_y_ * own_y + by_v_ * own_v) - apart_ * own_v.dot(by_v_.col(0)) +
+              (stretch_ ? load_.dot(own_v) : 0.0)};
 }
 
 }  // namespace clatter::dynamics

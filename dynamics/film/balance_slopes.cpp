@@ -23,6 +23,33 @@ void BalanceSlopes::subtract(const RowMatrix& dh, const Eigen::VectorXd* height,
   if (pad_.grooves() && terms_.stage().recesses != nullptr) subtract_grooves(dh, rows);
 }
 
+// What the wall carries is proportional to its speed.
+void BalanceSlopes::subtract_by_speed(RowMatrix& rows) const {
+  const double speed = terms_.stage().speed_axial;
+  if (speed == 0.0) return;
+  const auto at = [&](int cell) -> double& { return rows(pad_.row(cell), 0); };
+  for (size_t f = 0; f < pad_.faces().size(); ++f) {
+    if (!pad_.faces()[f].axial) continue;
+    const FaceTerms& face = terms_.faces()[f];
+    const double flow = face.carry * split_.on_face(terms_, f).at(fill_[face.upstream()]) / speed;
+    at(face.a) -= flow;
+    at(face.b) += flow;
+  }
+  for (size_t r = 0; r < pad_.rims().size(); ++r) {
+    if (!pad_.rims()[r].axial) continue;
+    const RimTerms& rim = terms_.rims()[r];
+    at(rim.cell) -= (rim.carry > 0.0 ? rim.carry * split_.on_rim(terms_, r).at(fill_[rim.cell])
+                                     : rim.entering) /
+                    speed;
+  }
+  for (int c = 0; c < pad_.grid().size(); ++c) {
+    if (terms_.extent().is_given(c)) at(c) = 0.0;
+    if (terms_.extent().is_given(c) || !terms_.extent().partial()) continue;
+    at(c) -= std::abs(terms_.covered(c)) * split_.end_thickness(terms_, c, fill_[c], pressure_[c]) /
+             speed;
+  }
+}
+
 void BalanceSlopes::subtract_storage(const RowMatrix& dh, RowMatrix& rows) const {
   const bool partial = terms_.extent().partial();
   Eigen::ArrayXd held = terms_.density(pressure_, fill_) * pad_.grid().area();

@@ -23,6 +23,10 @@ class BalanceSlopes {
   /// zero.
   void subtract(const RowMatrix& dh, const Eigen::VectorXd* height, RowMatrix& rows) const;
 
+  /// Writes minus the derivatives by the mean wall velocity along the axis [s/m] into the first
+  /// column of `rows` (zero before); nothing where the wall is at rest.
+  void subtract_by_speed(RowMatrix& rows) const;
+
  private:
   void subtract_storage(const RowMatrix& dh, RowMatrix& rows) const;
   void subtract_faces(const RowMatrix& dh, RowMatrix& rows) const;

@@ -75,12 +75,13 @@ void ContactModel::complete_oil() {
 }
 
 void ContactModel::complete_shape() {
+  const int count = at.size() + (bodies.crank.is_free() ? 1 : 0);
   if (bodies.liner) {
     complete_ends(bodies.liner->grid, options.ends);
     const LinerAxial liner{at.axial(), at.liner_fit() + 2};
-    axial = axial_motion(at.size(), at.pin(), bodies.liner_axial, &liner);
+    axial = axial_motion(count, at.pin(), bodies.liner_axial, &liner);
   } else {
-    axial = axial_motion(at.size(), at.pin(), bodies.bore_axis, nullptr);
+    axial = axial_motion(count, at.pin(), bodies.bore_axis, nullptr);
   }
   if (options.liner_layer) {
     LinerLayerOptions& layer = *options.liner_layer;

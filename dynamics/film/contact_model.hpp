@@ -16,7 +16,8 @@ namespace clatter::film {
 struct ContactModel {
   /// Completes the options: a film without cavitation is full, ends that are not given are those of
   /// the liner's patches, the clearance follows from that of the warm surfaces. InputError for
-  /// parameters out of range, or unless there are `size` coordinates (PistonLinerBodies).
+  /// parameters out of range, or unless there are `size` coordinates (PistonLinerBodies) without
+  /// that of a free crank.
   ContactModel(PistonLinerOptions given, PistonLinerBodies given_bodies, int size);
 
   PistonLinerOptions options;
@@ -42,7 +43,8 @@ struct ContactModel {
 /// One state of the bodies; valid for one evaluation.
 struct PadState {
   const dynamics::Stage& stage;
-  StrokeState stroke;
+  PinStroke pin;
+  double slide_by_turn;  // of the ideal pin's velocity by the coordinate of a free crank [m/s]
   double height, height_rate;  // of the pads' z = 0 along the liner [m], [m/s]
   double travel;               // since the start of the step [m]; for a layer on the liner
   const std::vector<ScaleState>& scales;  // of the shapes that have a factor

@@ -11,12 +11,18 @@ void CycleScales::add(std::function<ScaleState(double time)> scale) {
   rates_.push_back({});
 }
 
-const std::vector<ScaleState>& CycleScales::at(const dynamics::Stage& stage) {
-  double elapsed = stage.kappa;
-  for (const double weight : stage.weights) elapsed += weight;
+ScaleState CycleScales::law_at(size_t law, double time,
+                               const dynamics::Motion<double>& lead) const {
+  ScaleState state = laws_[law](time + lead.position);
+  state.rate *= 1.0 + lead.velocity;
+  return state;
+}
+
+const std::vector<ScaleState>& CycleScales::at(const dynamics::Stage& stage,
+                                               const dynamics::CrankLead& lead) {
   for (size_t k = 0; k < laws_.size(); ++k) {
-    const ScaleState start = laws_[k](stage.time - elapsed);
-    const double rate = laws_[k](stage.time).rate;
+    const ScaleState start = law_at(k, stage.begin(), lead.begin);
+    const double rate = law_at(k, stage.time, lead.now).rate;
     double value = start.value + stage.kappa * rate;
     for (size_t j = 0; j < stage.weights.size(); ++j)
       value += stage.weights[j] * (j == 0 ? start.rate : rates_[k].at(j));
@@ -25,14 +31,15 @@ const std::vector<ScaleState>& CycleScales::at(const dynamics::Stage& stage) {
   return now_;
 }
 
-std::vector<ScaleState> CycleScales::exact(double time) const {
+std::vector<ScaleState> CycleScales::exact(double time,
+                                           const dynamics::Motion<double>& lead) const {
   std::vector<ScaleState> all;
-  for (const auto& law : laws_) all.push_back(law(time));
+  for (size_t k = 0; k < laws_.size(); ++k) all.push_back(law_at(k, time, lead));
   return all;
 }
 
 void CycleScales::finish_stage(const dynamics::Stage& stage) {
-  for (size_t k = 0; k < laws_.size(); ++k) rates_[k].at(stage.index) = laws_[k](stage.time).rate;
+  for (size_t k = 0; k < laws_.size(); ++k) rates_[k].at(stage.index) = now_[k].rate;
 }
 
 void ScaledGap::add_skirt(const LinerShape& shape) {

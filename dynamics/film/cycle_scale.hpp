@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "dynamics/element/element.hpp"
+#include "dynamics/element/crank_angle.hpp"
 #include "dynamics/film/gap.hpp"
 
 namespace clatter::film {
@@ -16,7 +16,8 @@ struct ScaleState {
   double rate = 0.0;   // [1/s]
 };
 
-/// A shape of a rigid surface times a factor over time, such as a gas deformation.
+/// A shape of a rigid surface times a factor over the time of the crank's clock, such as a gas
+/// deformation.
 struct ScaledShape {
   LinerShape shape;
   std::function<ScaleState(double time)> scale;
@@ -29,13 +30,13 @@ class CycleScales {
  public:
   void add(std::function<ScaleState(double time)> scale);
   bool empty() const { return laws_.empty(); }
-  /// At a stage of the step that began at stage.time minus all of its weights.
-  const std::vector<ScaleState>& at(const dynamics::Stage& stage);
-  /// At an instant, exact.
-  std::vector<ScaleState> exact(double time) const;
+  const std::vector<ScaleState>& at(const dynamics::Stage& stage, const dynamics::CrankLead& lead);
+  /// At an instant, exact; `lead` then.
+  std::vector<ScaleState> exact(double time, const dynamics::Motion<double>& lead) const;
   void finish_stage(const dynamics::Stage& stage);
 
  private:
+  ScaleState law_at(size_t law, double time, const dynamics::Motion<double>& lead) const;
   std::vector<std::function<ScaleState(double time)>> laws_;
   std::vector<ScaleState> now_;
   std::vector<std::array<double, 4>> rates_;  // at the finished stages of this step [1/s]

@@ -15,6 +15,7 @@ Friction::Friction(const FrictionOptions& options, int cells)
       force_(cells),
       gap_slope_(cells),
       film_slope_(cells),
+      speed_slope_(cells),
       height_slope_(cells),
       share_(Eigen::ArrayXd::Ones(cells)),
       share_slope_(Eigen::ArrayXd::Zero(cells)) {
@@ -26,7 +27,7 @@ Friction::Friction(const FrictionOptions& options, int cells)
 }
 
 void Friction::clear(const Cover* cover) {
-  for (Eigen::ArrayXd* values : {&force_, &gap_slope_, &film_slope_, &height_slope_})
+  for (Eigen::ArrayXd* values : {&force_, &gap_slope_, &film_slope_, &speed_slope_, &height_slope_})
     values->setZero();
   if (cover == nullptr) return;
   const Eigen::Index columns = force_.size() / cover->share.size();
@@ -49,6 +50,7 @@ void Friction::add_film(const Reynolds& solution, const FilmPressure& pressure,
                 after = grid.cell(i, std::min(j + 1, n_j - 1));
       const double thickening = pressure.thickening != nullptr ? (*pressure.thickening)[c] : 1.0;
       const double drag = -viscosity * speed * grid.area()[c] * thickening;
+      const double drag_slope = -viscosity * grid.area()[c] * thickening;
       const double lever = quarter * (l[before] - l[after]);
       const double share = share_[c], own = share * p[c];
       const double pressure_jump = (after == c ? -own : share_[after] * p[after]) -
@@ -59,6 +61,7 @@ void Friction::add_film(const Reynolds& solution, const FilmPressure& pressure,
       const double force = drag * sheared.value * shear.inverse[c] + lever * p[c];
       force_[c] += share * force;
       height_slope_[c] += share_slope_[c] * force;
+      speed_slope_[c] += share * drag_slope * sheared.value * shear.inverse[c];
       gap_slope_[c] += share * drag * sheared.value * shear.inverse_slope[c];
       film_slope_[c] +=
           share * (solution.is_full(c) ? lever : drag * sheared.slope * shear.inverse[c]);
@@ -71,10 +74,12 @@ void Friction::add_film(const Reynolds& solution, const FilmPressure& pressure,
 void Friction::add_contact(const PadGrid& grid, const Eigen::ArrayXd& contact,
                            const Eigen::ArrayXd& contact_slope, const Eigen::ArrayXd& rate_slope,
                            double speed) {
-  const double direction = speed / std::hypot(speed, options_.reversal_speed);
+  const double smooth = std::hypot(speed, options_.reversal_speed), direction = speed / smooth;
+  const double turning = options_.reversal_speed * options_.reversal_speed / std::pow(smooth, 3);
   const Eigen::ArrayXd traction = -options_.coefficient * direction * grid.area() * contact;
   force_ += share_ * traction;
   height_slope_ += share_slope_ * traction;
+  speed_slope_ -= options_.coefficient * turning * share_ * grid.area() * contact;
   gap_slope_ -= options_.coefficient * direction * share_ * grid.area() * contact_slope;
   if (rate_slope.size() > 0)
     rate_slope_ = -options_.coefficient * direction * share_ * grid.area() * rate_slope;

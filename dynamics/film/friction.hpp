@@ -30,8 +30,8 @@ struct FilmPressure {
 /// the reaction to the shear on the liner wall, mu U/h - (h/2) dp/dz (Couette and Poiseuille); the
 /// pressure on the slope of the skirt is contained in it, because the liner wall is straight. 1/h
 /// and l are those of rough walls, RoughFilm::shear().
-/// Derivative: df = gap_slope dh + rate_slope dh' + film_slope dx, where x is p in a full cell and
-/// theta in a cavitated one. Summed along one axial column of cells both are exact.
+/// Derivative: df = gap_slope dh + rate_slope dh' + film_slope dx + speed_slope dU, where x is p in
+/// a full cell and theta in a cavitated one. Summed along one axial column of cells both are exact.
 class Friction {
  public:
   Friction(const FrictionOptions& options, int cells);
@@ -48,16 +48,17 @@ class Friction {
                    const Eigen::ArrayXd& contact_slope, const Eigen::ArrayXd& rate_slope,
                    double speed);
 
-  const Eigen::ArrayXd& force() const { return force_; }            // [N]
-  const Eigen::ArrayXd& gap_slope() const { return gap_slope_; }    // [N/m]
-  const Eigen::ArrayXd& rate_slope() const { return rate_slope_; }  // [N s/m]; empty: elastic
-  const Eigen::ArrayXd& film_slope() const { return film_slope_; }  // [N/Pa] or [N]
+  const Eigen::ArrayXd& force() const { return force_; }              // [N]
+  const Eigen::ArrayXd& gap_slope() const { return gap_slope_; }      // [N/m]
+  const Eigen::ArrayXd& rate_slope() const { return rate_slope_; }    // [N s/m]; empty: elastic
+  const Eigen::ArrayXd& film_slope() const { return film_slope_; }    // [N/Pa] or [N]
+  const Eigen::ArrayXd& speed_slope() const { return speed_slope_; }  // [N s/m]
   /// By the height of the pad past the ends of the liner [N/m].
   const Eigen::ArrayXd& height_slope() const { return height_slope_; }
 
  private:
   FrictionOptions options_;
-  Eigen::ArrayXd force_, gap_slope_, rate_slope_, film_slope_, height_slope_;
+  Eigen::ArrayXd force_, gap_slope_, rate_slope_, film_slope_, speed_slope_, height_slope_;
   Eigen::ArrayXd share_, share_slope_;  // covered fraction of the cells and its derivative [1/m]
 };
 

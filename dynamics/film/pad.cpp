@@ -56,10 +56,11 @@ void Pad::evaluate(const PadState& state, bool first_step, bool with_tangent) {
   if (!with_tangent) return;
   if (model_.damping) gap_.find_rate_directions(state);
   update_tangent();
+  if (model_.bodies.crank.is_free()) update_crank_column(state.slide_by_turn);
 }
 
 void Pad::update_load(const PadState& state, bool first_step) {
-  const double velocity = state.stroke.velocity;
+  const double velocity = state.pin.ideal.velocity;
   load_.setZero();
   if (film_) {
     film_->solve(gap_, state, first_step);
@@ -88,6 +89,9 @@ void Pad::add_tangent(const std::vector<int>& row, Eigen::MatrixXd& tangent) con
     for (size_t i = 0; i < columns().size(); ++i)
       tangent(row[columns()[i]], row[columns()[j]]) +=
           tangent_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  if (!model_.bodies.crank.is_free()) return;
+  for (size_t i = 0; i < columns().size(); ++i)
+    tangent(row[columns()[i]], tangent.cols() - 1) += by_turn_[static_cast<Eigen::Index>(i)];
 }
 
 // (F, M_x, M_y) about the pin's centre.
@@ -162,8 +166,23 @@ void Pad::add_end_tangent() {
   tangent_ += (gap_.by_y().transpose() * load_slope.matrix() + curve * height) * height.transpose();
 }
 
-void Pad::add_power(const Eigen::VectorXd& v, double stroke_velocity,
-                    dynamics::Power& power) const {
+// What the sliding speed U changes of film and friction.
+void Pad::update_crank_column(double slide_by_turn) {
+  const int n = gap_.grid().size();
+  Eigen::ArrayXd by_speed = Eigen::ArrayXd::Zero(n), load = by_speed;  // of the film's x, of load_
+  if (film_) film_->speed_sensitivity(by_speed);
+  for (int c = 0; c < n; ++c)
+    if (film_ && film_->is_full(c)) load[c] = gap_.area()[c] * by_speed[c];
+  by_turn_ = slide_by_turn * (gap_.by_y().transpose() * load.matrix());
+  if (!friction_) return;
+  const Eigen::ArrayXd rub = by_speed * friction_->film_slope() + friction_->speed_slope();
+  const Eigen::Vector3d wrench = slide_by_turn * (levers_.transpose() * rub.matrix());
+  const Eigen::Matrix3Xd slide = model_.axial.slide(Eigen::all, columns());
+  by_turn_ += slide.transpose() * wrench;
+}
+
+void Pad::add_power(const Eigen::VectorXd& v, const PinStroke& pin, dynamics::Power& power) const {
+  const double stroke_velocity = pin.clock.velocity;
   const Eigen::ArrayXd gap_rate = gap_.rate(v, stroke_velocity);
   if (const Eigen::ArrayXd* walls = gap_.wall_rate())  // what moves the walls works on the load
     power.input -= (load_ * *walls).sum();
@@ -171,7 +190,8 @@ void Pad::add_power(const Eigen::VectorXd& v, double stroke_velocity,
   if (film_) power.lost -= (gap_.area() * film_->pressure() * gap_rate).sum();
   if (contact_) {
     power.stored += contact_->energy(gap_);
-    if (gap_.recesses() != nullptr) power.input += contact_->groove_force(gap_) * stroke_velocity;
+    if (gap_.recesses() != nullptr)
+      power.input += contact_->groove_force(gap_) * pin.ideal.velocity;
     if (model_.damping) power.lost += contact_->lost(gap_);
   }
   if (!friction_) return;

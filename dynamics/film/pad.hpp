@@ -40,14 +40,15 @@ class Pad {
   const std::vector<int>& columns() const { return gap_.map().columns(); }
   /// Adds to the forces on all coordinates, n_e.
   void add_force(Eigen::VectorXd& force) const;
-  /// Adds the force's derivative; coordinate i has row and column `row[i]` of `tangent`.
+  /// Adds the force's derivative; coordinate i has row and column `row[i]` of `tangent`, a free
+  /// crank's the last column.
   void add_tangent(const std::vector<int>& row, Eigen::MatrixXd& tangent) const;
   const PadGap& gap() const { return gap_; }
   std::optional<PadFilm>& film() { return film_; }
   const std::optional<PadFilm>& film() const { return film_; }
 
-  /// Adds to the power at velocities v (n_e) and that of the stroke [m/s].
-  void add_power(const Eigen::VectorXd& v, double stroke_velocity, dynamics::Power& power) const;
+  /// Adds to the power at velocities v (n_e).
+  void add_power(const Eigen::VectorXd& v, const PinStroke& pin, dynamics::Power& power) const;
   void add_sums(PadSums& sums) const;
   PadSnapshot snapshot() const;
 
@@ -59,6 +60,7 @@ class Pad {
   void update_tangent();
   void add_load_tangent();
   void add_end_tangent();
+  void update_crank_column(double slide_by_turn);
   Eigen::Matrix3Xd friction_tangent() const;
 
   const ContactModel& model_;
@@ -68,11 +70,12 @@ class Pad {
   std::optional<PadContact> contact_;
   std::optional<Friction> friction_;
   Eigen::Matrix<double, Eigen::Dynamic, 3>
-      levers_;             // (F, M_x, M_y) about the pin's centre per unit axial force, n x 3
-  Eigen::ArrayXd load_;    // covered area times (p + p_c) [N], n
-  Eigen::VectorXd force_;  // without friction, k
-  RowMatrix tangent_;      // of the force, with friction, k x k
-  RowMatrix derivative_;   // dx/dy of the film, then d(load)/dy, n x k
+      levers_;               // (F, M_x, M_y) about the pin's centre per unit axial force, n x 3
+  Eigen::ArrayXd load_;      // covered area times (p + p_c) [N], n
+  Eigen::VectorXd force_;    // without friction, k
+  RowMatrix tangent_;        // of the force, with friction, k x k
+  Eigen::VectorXd by_turn_;  // the same by the rotation of a free crank, k
+  RowMatrix derivative_;     // dx/dy of the film, then d(load)/dy, n x k
 };
 
 }  // namespace clatter::film

@@ -28,7 +28,7 @@ void PadContact::damp(const PadGap& gap, const PadState& state) {
   rate_slope_.setZero();
   loss_.setZero();
   if ((pressure_ == 0.0).all()) return;
-  const Eigen::ArrayXd rates = gap.rate(state.v, state.stroke.velocity);
+  const Eigen::ArrayXd rates = gap.rate(state.v, state.pin.clock.velocity);
   for (Eigen::Index c = 0; c < pressure_.size(); ++c) {
     const double elastic = elastic_[c];
     if (elastic == 0.0) continue;

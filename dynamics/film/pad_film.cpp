@@ -46,15 +46,15 @@ void PadFilm::start(const PadGap& gap, const PadState& state) {
   const double layers = options_.cavity == Cavity::kLayer ? 1.0 : 2.0;
   oil_.start((options_.initial_fill * cells_.content).min(layers * options_.oil_thickness) *
              gap.area() / gap.grid().area());
-  if (layer_) layer_->start(state.stroke.position, options_.oil_thickness, in_gap());
+  if (layer_) layer_->start(state.pin.ideal.position, options_.oil_thickness, in_gap());
 }
 
 void PadFilm::solve(const PadGap& gap, const PadState& state, bool first_step) {
-  const double lowest = gap.lowest(), speed = state.stroke.velocity;
+  const double lowest = gap.lowest(), speed = state.pin.ideal.velocity;
   if (lowest <= rough_.lowest_gap()) refuse_gap(gap, lowest);
   rough_.thicknesses(gap.value(), cells_);
   if (viscosity_.varies()) {
-    viscosity_.ratio(gap.grid(), state.stroke.position, speed, cells_, viscosity_ratio_,
+    viscosity_.ratio(gap.grid(), state.pin.ideal.position, speed, cells_, viscosity_ratio_,
                      viscosity_ratio_slope_);
     divide_conductance(viscosity_ratio_, viscosity_ratio_slope_, cells_);
   }
@@ -100,6 +100,13 @@ void PadFilm::sensitivities(const PadGap& gap, RowMatrix& derivative) {
   reynolds_.sensitivities(directions_, derivative, &gap.map().height_by_column());
   for (Eigen::Index c = 0; c < thickening_.size(); ++c)  // dp/dP of full cells
     if (is_full(static_cast<int>(c))) derivative.row(c) *= thickening_[c];
+}
+
+void PadFilm::speed_sensitivity(Eigen::ArrayXd& derivative) {
+  reynolds_.speed_sensitivity(derivative);
+  derivative *= -0.5;  // the mean wall velocity is -U / 2
+  for (Eigen::Index c = 0; c < thickening_.size(); ++c)
+    if (is_full(static_cast<int>(c))) derivative[c] *= thickening_[c];
 }
 
 void PadFilm::add_friction(const PadGap& gap, double velocity, Friction& friction) {

@@ -37,6 +37,8 @@ class PadFilm {
 
   /// dp/d(.) of full cells, dtheta/d(.) of others, along the gap's directions, n x k.
   void sensitivities(const PadGap& gap, RowMatrix& derivative);
+  /// The same by the speed U of the skirt past the liner, n [s/m].
+  void speed_sensitivity(Eigen::ArrayXd& derivative);
   /// Adds the shear of the last solution at the stroke's velocity [m/s].
   void add_friction(const PadGap& gap, double velocity, Friction& friction);
 

@@ -55,7 +55,7 @@ void PadGap::set(const PadState& state) {
   if (scaled_) scaled_->add(state.height, state.scales, value_, by_height_);
   map_.move(state.height);
   map_.add(state.y, value_, by_height_);
-  if (recess_map_) place_recesses(state.stroke.position);
+  if (recess_map_) place_recesses(state.pin.ideal.position);
 }
 
 // Grooves of the liner move with the ideal stroke alone: a cell does not change between land and

@@ -19,8 +19,9 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
                          std::vector<int> coordinates)
     : ForceElement(std::move(coordinates)),
       model_(std::move(options), std::move(bodies), static_cast<int>(coordinates_.size())),
-      stroke_(model_.bodies.stroke),
-      touched_row_(coordinates_.size(), -1) {
+      stroke_(model_.bodies.stroke, model_.bodies.crank) {
+  model_.bodies.crank.join(coordinates_);
+  touched_row_.assign(coordinates_.size(), -1);
   for (const auto* shapes : {&model_.options.scaled_bore, &model_.options.scaled_skirt})
     for (const ScaledShape& shape : *shapes) scales_.add(shape.scale);
   if (model_.options.span == SkirtSpan::kWhole) {
@@ -66,29 +67,33 @@ void PistonLiner::begin_step(double time) {
 void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& y,
                            const Eigen::VectorXd& v, bool with_tangent,
                            dynamics::Response& response) {
-  at_stage_ = stroke_.at(stage);
-  if (!scales_.empty()) scaled_ = scales_.at(stage);
+  stroke_.find(stage, y, v);
+  const dynamics::CrankLead& lead = stroke_.lead();
+  if (!scales_.empty()) scaled_ = scales_.at(stage, lead);
+  const PinStroke& pin = stroke_.now();
   const double travel = model_.options.liner_layer ? stroke_.travel(stage) : 0.0;
   const PadState now{stage,
-                     at_stage_,
-                     model_.height(at_stage_.position, y),
-                     model_.height(at_stage_.velocity, v),
+                     pin,
+                     stroke_.slide_by_turn(),
+                     model_.height(pin.clock.position, y),
+                     model_.height(pin.clock.velocity, v),
                      travel,
                      scaled_,
                      y,
                      v};
   if (!running_ && model_.options.effects.film) {  // from the start, y~ = y - kappa v
     const double begin = stage.time - stage.kappa;
-    const StrokeState stroke = stroke_.exact(begin);
+    const PinStroke first = stroke_.exact(begin, lead.begin);
     const Eigen::VectorXd y_begin = y - stage.kappa * v;
-    const std::vector<ScaleState> scales = scales_.exact(begin);
-    const PadState start{stage,   stroke, model_.height(stroke.position, y_begin), 0.0, 0.0, scales,
-                         y_begin, v};
+    const std::vector<ScaleState> scales = scales_.exact(begin, lead.begin);
+    const PadState start{stage, first, 0.0,    model_.height(first.clock.position, y_begin),
+                         0.0,   0.0,   scales, y_begin,
+                         v};
     for (const auto& pad : pads_) pad->start(start);
   }
   parallel_tasks(static_cast<int>(pads_.size()),
                  [&](int k) { pads_[k]->evaluate(now, !running_, with_tangent); });
-  response.force.setZero(size());
+  response.force.setZero(std::ssize(coordinates_));
   for (const auto& pad : pads_) pad->add_force(response.force);
   list_touched(response);
   if (!with_tangent) return;
@@ -96,20 +101,22 @@ void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& 
   for (const auto& pad : pads_) pad->add_tangent(touched_row_, response.tangent);
 }
 
-// The coordinates of both pads, ascending; none where they are all.
+// The coordinates of both pads and the crank's, ascending; none where they are all.
 void PistonLiner::list_touched(dynamics::Response& response) {
   std::fill(touched_row_.begin(), touched_row_.end(), -1);
   for (const auto& pad : pads_)
     for (const int column : pad->columns()) touched_row_[column] = 0;
   response.touched.clear();
-  for (int i = 0; i < size(); ++i) {
+  if (model_.bodies.crank.is_free()) touched_row_.back() = 0;
+  const auto count = static_cast<int>(coordinates_.size());
+  for (int i = 0; i < count; ++i) {
     int& row = touched_row_[i];
     if (row < 0) continue;
     row = static_cast<int>(response.touched.size());
     response.touched.push_back(i);
   }
   touched_count_ = static_cast<int>(response.touched.size());
-  if (touched_count_ == size()) response.touched.clear();
+  if (touched_count_ == count) response.touched.clear();
 }
 
 void PistonLiner::finish_stage(const dynamics::Stage& stage) {
@@ -124,10 +131,12 @@ void PistonLiner::accept_step(double time) {
   running_ = true;
   std::vector<double> left;  // by the rings
   if (model_.options.liner_layer) {
-    const StrokeState stroke = stroke_.exact(time);
+    const dynamics::Motion<double>& lead = stroke_.lead().now;
+    const StrokeState pin = stroke_.exact(time, lead).ideal;
     for (const RingOptions& ring : model_.options.liner_layer->rings)
-      left.push_back(ring_layer(ring, model_.viscosity->at_height(stroke.position + ring.height),
-                                stroke.velocity, ring.gas_load ? ring.gas_load(time) : 0.0));
+      left.push_back(ring_layer(ring, model_.viscosity->at_height(pin.position + ring.height),
+                                pin.velocity,
+                                ring.gas_load ? ring.gas_load(time + lead.position) : 0.0));
   }
   for (const auto& pad : pads_)
     if (pad->film()) pad->film()->accept_step(time - step_begin_, travel_, left);
@@ -135,7 +144,7 @@ void PistonLiner::accept_step(double time) {
 
 dynamics::Power PistonLiner::power(const Eigen::VectorXd&, const Eigen::VectorXd& v) const {
   dynamics::Power power;
-  for (const auto& pad : pads_) pad->add_power(v, at_stage_.velocity, power);
+  for (const auto& pad : pads_) pad->add_power(v, stroke_.now(), power);
   return power;
 }
 

@@ -30,9 +30,16 @@ class Pad;
 /// asperity pressure.
 /// Friction acts at the wall, at the bore's radius. Forces and moments on both bodies cancel, with
 /// the levers of the ideal position: pin at z_B(t), bore's axis at `bore_axis` from it.
+///
+/// With a free crank the pin's coordinate counts from the stroke of the clock, and so z is exact as
+/// it is. The speed at which skirt and liner slide, the oil that is dragged, grooves of the liner,
+/// the height that viscosity has, and factors of shapes are those at the angle of the crank. Of the
+/// derivatives by this angle the tangent has that by the sliding speed, which grows as 1 / kappa,
+/// other than of viscosity and of the layer on the liner.
 class PistonLiner : public dynamics::ForceElement {
  public:
-  /// `coordinates`: in the order of PistonLinerBodies. InputError for parameters out of range.
+  /// `coordinates`: in the order of PistonLinerBodies, without that of a free crank. InputError for
+  /// parameters out of range.
   PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies, std::vector<int> coordinates);
   ~PistonLiner() override;
 
@@ -66,7 +73,6 @@ class PistonLiner : public dynamics::ForceElement {
   std::vector<std::unique_ptr<Pad>> pads_;
   StrokeSteps stroke_;
   CycleScales scales_;              // of shapes of bore and skirt
-  StrokeState at_stage_;            // of the last stage
   std::vector<ScaleState> scaled_;  // at the last stage
   double step_begin_ = 0.0;         // start of this step [s]
   double travel_ = 0.0;             // stroke up to its last stage [m]; with the layer on the liner

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/element/crank_angle.hpp"
 #include "dynamics/film/asperity.hpp"
 #include "dynamics/film/contact_damping.hpp"
 #include "dynamics/film/cover.hpp"
@@ -87,6 +88,7 @@ struct PistonLinerOptions {
 /// [piston patches | their fit | liner patches | their fit | pin x, y, z, rx, ry, rz | liner
 /// axial]; absent parts have none. The fit of a surface is its rigid motion x, y, rx, ry,
 /// rigid_fit() times its patches. A liner has an axial coordinate, which takes the axial reaction.
+/// What is given over time is over that of the crank's clock.
 struct PistonLinerBodies {
   std::optional<ElasticSurface>
       piston;  // skirt patches, frame at the pin centre; absent: rigid, moved by the pin
@@ -95,6 +97,7 @@ struct PistonLinerBodies {
   Eigen::Vector2d liner_axial =
       Eigen::Vector2d::Zero();  // (x, y) of the liner's axial coordinate from the pin's centre [m]
   std::function<StrokeState(double time)> stroke;
+  dynamics::CrankAngle crank;
 };
 
 }  // namespace clatter::film

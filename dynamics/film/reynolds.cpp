@@ -247,6 +247,15 @@ ValueSlope Reynolds::sheared(int cell) const {
   return {both_walls ? land * (2.0 * fill_[cell] - 1.0) : 0.0, both_walls ? land * 2.0 : 0.0};
 }
 
+void Reynolds::speed_sensitivity(Eigen::ArrayXd& derivative) {
+  slopes_.setZero(grid().size(), BandedLu::padded(1));
+  BalanceSlopes(terms_, split_, pressure_, fill_).subtract_by_speed(slopes_);
+  lu_.solve_rows(slopes_.data(), static_cast<int>(slopes_.cols()));
+  derivative.resize(grid().size());
+  for (int c = 0; c < grid().size(); ++c)
+    derivative[c] = (is_full(c) ? terms_.pressure_scale() : 1.0) * slopes_(terms_.pad().row(c), 0);
+}
+
 void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative,
                              const Eigen::VectorXd* height) {
   const int k = static_cast<int>(dh.cols());

@@ -84,6 +84,8 @@ class Reynolds {
   /// by how much each moves the pad past the ends of the liner; null: none does.
   void sensitivities(const RowMatrix& dh, RowMatrix& derivative,
                      const Eigen::VectorXd* height = nullptr);
+  /// The same by the mean wall velocity along the axis [s/m], n; 0 where the wall is at rest.
+  void speed_sensitivity(Eigen::ArrayXd& derivative);
 
   const PadFaces& pad() const { return terms_.pad(); }
   const PadGrid& grid() const { return terms_.grid(); }

@@ -4,14 +4,21 @@
 #include <array>
 #include <functional>
 
-#include "dynamics/element/element.hpp"
+#include "dynamics/element/crank_angle.hpp"
 
 namespace clatter::film {
 
-/// Stroke position and velocity of the piston's reference point (pin centre) along engine z.
+/// Stroke of the piston's reference point (pin centre) along engine z.
 struct StrokeState {
-  double position = 0.0;  // z_B [m]
-  double velocity = 0.0;  // dz_B/dt [m/s]
+  double position = 0.0;      // z_B [m]
+  double velocity = 0.0;      // dz_B/dt [m/s]
+  double acceleration = 0.0;  // of a free crank, for tangents [m/s2]
+};
+
+/// Both strokes of one instant: they differ where the crank is free.
+struct PinStroke {
+  StrokeState clock;  // by the clock: the pin's coordinate counts from it
+  StrokeState ideal;  // of the ideal mechanism at the angle of the crank, without acceleration
 };
 
 /// z_B within a step, integrated by the tableau as y is, from its exact value at the start of the
@@ -19,19 +26,30 @@ struct StrokeState {
 /// the rate at another instant, and with SDIRK2 the pressure only of first order.
 class StrokeSteps {
  public:
-  explicit StrokeSteps(std::function<StrokeState(double time)> law) : law_(std::move(law)) {}
+  /// @param law of the stroke over the time of the clock.
+  StrokeSteps(std::function<StrokeState(double time)> law, dynamics::CrankAngle crank)
+      : law_(std::move(law)), crank_(std::move(crank)) {}
 
-  /// At a stage of the step that began at stage.time minus all of its weights.
-  StrokeState at(const dynamics::Stage& stage) const;
-  /// From the start of the step to this stage [m], as the film's speed has it.
+  /// Finds the following at a stage, from the state of the element.
+  void find(const dynamics::Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v);
+  const PinStroke& now() const { return now_; }
+  const dynamics::CrankLead& lead() const { return lead_; }
+  /// Of the ideal pin's velocity by the coordinate of a free crank [m/s].
+  double slide_by_turn() const { return slide_by_turn_; }
+  /// Of the ideal pin since the start of the step [m], as the film's speed has it.
   double travel(const dynamics::Stage& stage) const;
-  /// At an instant, exact.
-  StrokeState exact(double time) const { return law_(time); }
   void finish_stage(const dynamics::Stage& stage);
+
+  /// At an instant, exact; `lead` then.
+  PinStroke exact(double time, const dynamics::Motion<double>& lead) const;
 
  private:
   std::function<StrokeState(double time)> law_;
-  std::array<double, 4> rates_{};  // z_B' at the finished stages of this step [m/s]
+  dynamics::CrankAngle crank_;
+  PinStroke now_;
+  dynamics::CrankLead lead_;
+  double slide_by_turn_ = 0.0;
+  std::array<double, 4> clock_rates_{}, ideal_rates_{};  // z_B' at the finished stages of this step
 };
 
 }  // namespace clatter::film

@@ -29,6 +29,9 @@ class SliderCrank {
   double radius() const { return radius_; }
   double rod_length() const { return rod_length_; }
   double pin_offset() const { return pin_offset_; }
+  const CrankClock& clock() const { return clock_; }
+  double firing() const { return firing_; }
+  Rotation rotation() const { return sign_ > 0.0 ? Rotation::kForward : Rotation::kBackward; }
   /// Angular velocity of the crankshaft about +x [rad/s].
   double spin(double time) const { return sign_ * clock_.turn(time).velocity; }
   /// theta by the clock [rad], [rad/s], [rad/s2].

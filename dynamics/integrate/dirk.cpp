@@ -5,7 +5,9 @@ namespace clatter::dynamics {
 
 using Eigen::VectorXd;
 
-Dirk::Dirk(System& system, const StepOptions& options) : Integrator(system, options) {}
+Dirk::Dirk(System& system, const StepOptions& options) : Integrator(system, options) {
+  for (Stage* stage : {&first_, &second_}) solver_.inform(now_, *stage);
+}
 
 Integrator::Verdict Dirk::attempt(double dt, const StageOperator& op) {
   const Tableau& A = *tableau_;

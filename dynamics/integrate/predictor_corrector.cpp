@@ -4,7 +4,9 @@
 namespace clatter::dynamics {
 
 PredictorCorrector::PredictorCorrector(System& system, const StepOptions& options)
-    : Integrator(system, options) {}
+    : Integrator(system, options) {
+  solver_.inform(now_, stage_);
+}
 
 void PredictorCorrector::forget_history() {
   Integrator::forget_history();

@@ -13,7 +13,8 @@ bool StageSolver::solve(const Stage& stage, const StageOperator& op, const Vecto
   ++statistics_.stages;
   system_.load_force(stage.time, F_);
   op.settle(eta_tilde, v_tilde, F_, out);
-  system_.interface<3>({&out.eta, &eta_tilde, &eta_guess}, {&y_pred_, &y_tilde_, &out.y});
+  system_.interface<4>({&out.eta, &eta_tilde, &eta_guess, &v_tilde},
+                       {&y_pred_, &y_tilde_, &out.y, &v_known_});
   last_ = newton_.solve(stage, op, y_pred_, y_tilde_, out.y, f_);
   if (last_.outcome != StageNewton::Outcome::kConverged) return false;
   system_.add_interface_force(f_, F_);

@@ -24,6 +24,12 @@ class StageSolver {
              const Eigen::VectorXd& v_tilde, const Eigen::VectorXd& eta_guess, StageState& out);
   const StageNewton::Result& last() const { return last_; }
   StageNewton& newton() { return newton_; }
+  /// Tells a stage what solve() knows of it, and the state where its step begins.
+  void inform(const StageState& begin, Stage& stage) const {
+    stage.y_begin = &begin.y;
+    stage.v_begin = &begin.v_y;
+    stage.v_known = &v_known_;
+  }
 
  private:
   bool is_finite(const StageState& state);
@@ -32,7 +38,7 @@ class StageSolver {
   StepStatistics& statistics_;
   StageNewton newton_;
   StageNewton::Result last_{StageNewton::Outcome::kConverged, "", "", -1};
-  Eigen::VectorXd F_, y_pred_, y_tilde_, f_;
+  Eigen::VectorXd F_, y_pred_, y_tilde_, v_known_, f_;
 };
 
 }  // namespace clatter::dynamics

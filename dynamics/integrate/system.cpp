@@ -272,8 +272,8 @@ void System::interface(const std::array<const VectorXd*, kCount>& modal,
 
 template void System::interface(const std::array<const VectorXd*, 2>&,
                                 const std::array<VectorXd*, 2>&) const;
-template void System::interface(const std::array<const VectorXd*, 3>&,
-                                const std::array<VectorXd*, 3>&) const;
+template void System::interface(const std::array<const VectorXd*, 4>&,
+                                const std::array<VectorXd*, 4>&) const;
 
 VectorXd System::interface(const VectorXd& modal) const {
   VectorXd y;

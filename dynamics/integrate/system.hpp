@@ -114,7 +114,7 @@ class System {
   /// y = P eta; for displacements and velocities alike.
   void interface(const Eigen::VectorXd& modal, Eigen::VectorXd& y) const;
   Eigen::VectorXd interface(const Eigen::VectorXd& modal) const;
-  /// The same for 2 or 3 vectors at once: P is read once.
+  /// The same for 2 or 4 vectors at once: P is read once.
   template <size_t kCount>
   void interface(const std::array<const Eigen::VectorXd*, kCount>& modal,
                  const std::array<Eigen::VectorXd*, kCount>& y) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // One implicit stage of the integrator, as laws and elements see it.
+#include <Eigen/Core>
 #include <exception>
 #include <string>
 #include <utility>
@@ -15,6 +16,17 @@ struct Stage {
   double kappa;                 // dt * a_ii [s]
   int index;                    // i; 0 is the starting implicit Euler stage of a run, then 1, 2
   std::vector<double> weights;  // dt * a_ij, j < index [s]
+  // The system's interface coordinates, n_y each; null where a run starts and after an event.
+  const Eigen::VectorXd* y_begin = nullptr;  // at the begin of the step
+  const Eigen::VectorXd* v_begin = nullptr;
+  const Eigen::VectorXd* v_known = nullptr;  // v_i = v_known + kappa v'_i
+
+  /// When the step began [s].
+  double begin() const {
+    double elapsed = kappa;
+    for (const double weight : weights) elapsed += weight;
+    return time - elapsed;
+  }
 };
 
 /// A trial state is not admissible (film thickness <= 0, inner solve failed): the step is reduced.

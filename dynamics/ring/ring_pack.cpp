@@ -27,6 +27,7 @@ RingPack::RingPack(RingPackOptions options, RingPackBodies bodies, std::vector<i
       n_liner_(liner_columns(bodies_)),
       viscosity_(options_.oil, options_.viscosity),
       instants_(options_.rings.size()) {
+  bodies_.crank.join(coordinates_);
   const auto n = static_cast<int>(coordinates_.size());
   const film::LinerAxial liner{pin() + 6, n_liner_ - film::kFits + 2};
   const film::AxialMotion motion = bodies_.liner
@@ -43,7 +44,7 @@ RingPack::RingPack(RingPackOptions options, RingPackBodies bodies, std::vector<i
     totals->friction.assign(options_.rings.size(), 0.0);
 }
 
-// The patches beside rings that hold the piston, the fit, the pin and the axial coordinate.
+// The patches beside rings that hold the piston, the fit, the pin, the axial coordinate, the crank.
 void RingPack::list_touched(Response& response) {
   std::fill(touched_place_.begin(), touched_place_.end(), -1);
   for (size_t k = 0; k < lateral_.size(); ++k) {
@@ -98,10 +99,14 @@ void RingPack::find_rows(size_t ring, double stroke) {
 
 void RingPack::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                         bool with_tangent, Response& response) {
-  const Motion<double> stroke = bodies_.stroke(stage.time);
-  const double pressure = bodies_.gas ? std::max(bodies_.gas(stage.time), 0.0) : 0.0;
+  const CrankLead lead = bodies_.crank.lead(stage, y, v);
+  const double time = stage.time + lead.now.position;
+  const Motion<double> given = bodies_.stroke(time);
+  const Stroke stroke{led(given, lead.now), bodies_.stroke(stage.time).velocity,
+                      bodies_.gas ? std::max(bodies_.gas(time), 0.0) : 0.0,
+                      led_by_turn(given, lead).acceleration};
   for (size_t k = 0; k < lateral_.size(); ++k)
-    if (options_.rings[k].groove > 0.0) lateral_[k].move(stroke.position);
+    if (options_.rings[k].groove > 0.0) lateral_[k].move(stroke.motion.position);
   list_touched(response);
   const auto n = static_cast<Eigen::Index>(touched_.size());
   axial_touched_.resize(n);
@@ -110,22 +115,29 @@ void RingPack::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eige
   if (with_tangent) response.tangent.setZero(n, n);
   last_.groove = last_.axial_lost = last_.lateral_lost = last_.input = 0.0;
   for (size_t k = 0; k < options_.rings.size(); ++k) {
-    add_ring(k, stroke, y, v, pressure);
+    add_ring(k, stroke, y, v);
     const Instant& at = instants_[k];
     response.force += at.friction * axial_.transpose();
     if (options_.rings[k].groove > 0.0)
       for (Eigen::Index i = 0; i < n; ++i)
         response.force(touched_[i]) += slide_.col(i).dot(at.force);
-    if (with_tangent) add_tangent(at, stage.kappa, stroke.velocity, response);
+    if (with_tangent) add_tangent(at, stage.kappa, stroke.motion.velocity, response);
   }
 }
 
-void RingPack::add_ring(size_t ring, const Motion<double>& stroke, const Eigen::VectorXd& y,
-                        const Eigen::VectorXd& v, double pressure) {
+void RingPack::add_ring(size_t ring, const Stroke& at_crank, const Eigen::VectorXd& y,
+                        const Eigen::VectorXd& v) {
   const RingSpec& one = options_.rings[ring];
+  const auto& [stroke, clock_rate, pressure, acceleration_by_turn] = at_crank;
   Instant& at = instants_[ring];
-  at = {0.0, 0.0, 0.0, 0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
-  const double speed = axial_.dot(v) + stroke.velocity;
+  at = {0.0,
+        0.0,
+        0.0,
+        0.0,
+        Eigen::Vector2d::Zero(),
+        Eigen::Vector2d::Zero(),
+        one.mass * acceleration_by_turn};
+  const double speed = axial_.dot(v) + clock_rate;
   if (one.boundary > 0.0) {
     const double load = one.load + one.gas_share * pressure * one.width;
     const RingShear shear = ring_shear(one, viscosity_.at_height(stroke.position + one.height),
@@ -136,7 +148,7 @@ void RingPack::add_ring(size_t ring, const Motion<double>& stroke, const Eigen::
   }
   last_.friction[ring] = at.friction;
   last_.axial_lost -= at.friction * speed;
-  last_.input -= at.friction * stroke.velocity;
+  last_.input -= at.friction * clock_rate;
   if (one.groove == 0.0) return;
   find_rows(ring, stroke.position);
   Eigen::Vector2d prescribed = Eigen::Vector2d::Zero();
@@ -167,6 +179,8 @@ void RingPack::add_tangent(const Instant& at, double kappa, double stroke_rate,
   slide_by_y_ = slide_ / kappa + stroke_rate * slide_rate_;
   force_by_y_.noalias() = by_slip * slide_by_y_;
   force_by_y_.noalias() += (at.groove_sign * along / r * at.slip) * axial_touched_;
+  if (bodies_.crank.is_free())
+    force_by_y_.rightCols<1>() -= at.groove_sign * at.load_by_turn / r * at.slip;
   response.tangent.noalias() += slide_.transpose() * force_by_y_;
 }
 

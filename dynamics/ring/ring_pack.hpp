@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/element/crank_angle.hpp"
 #include "dynamics/element/element.hpp"
 #include "dynamics/film/axial_motion.hpp"
 #include "dynamics/film/viscosity.hpp"
@@ -28,12 +29,14 @@ struct RingPackOptions {
 };
 
 /// The bodies. Coordinates of the element: [liner patches | their fit | pin x, y, z, rx, ry, rz |
-/// liner axial]; those of a liner at rest are absent.
+/// liner axial | rotation of a free crank]; those of a liner at rest are absent. Stroke and gas are
+/// over the time of the crank's clock.
 struct RingPackBodies {
   std::optional<film::ElasticSurface> liner;
   Eigen::Vector2d bore_axis, liner_axial;             // (x, y) from the pin's centre [m]
   std::function<Motion<double>(double time)> stroke;  // of the pin's centre, engine z
   std::function<double(double time)> gas;  // gauge pressure in the cylinder [Pa]; empty: none
+  CrankAngle crank;
 };
 
 /// Forces of the rings.
@@ -52,8 +55,13 @@ struct RingPackBodies {
 ///
 /// on the piston at the groove, and the opposite on the patches of the liner beside the ring. Gas
 /// and inertia act on the piston elsewhere: its gas load and its mass contain those of the rings.
+///
+/// With a free crank p, z'' and the heights are those at its angle; U is the speed of the pin by
+/// its own coordinate, which counts from the stroke of the clock. Of the derivatives by that angle
+/// the tangent has that of m z'', by far the largest in short steps: it grows as 1 / kappa^2.
 class RingPack : public ForceElement {
  public:
+  /// @param coordinates without that of a free crank.
   RingPack(RingPackOptions options, RingPackBodies bodies, std::vector<int> coordinates);
 
   std::string name() const override { return options_.name; }
@@ -77,13 +85,20 @@ class RingPack : public ForceElement {
     double friction, friction_slope;  // T [N], by U [N s/m]
     double groove_load, groove_sign;  // |N| [N], d|N|/dN
     Eigen::Vector2d slip, force;      // s [m/s], F [N]
+    double load_by_turn;              // of N by the rotation of a free crank [N/rad]
   };
   int pin() const { return n_liner_; }
   void list_touched(Response& response);
   double groove_load(size_t ring, double pressure, double acceleration, double friction) const;
   void find_rows(size_t ring, double stroke);
-  void add_ring(size_t ring, const Motion<double>& stroke, const Eigen::VectorXd& y,
-                const Eigen::VectorXd& v, double pressure);
+  /// A stroke at the crank's angle.
+  struct Stroke {
+    Motion<double> motion;        // of the ideal pin
+    double clock_rate, pressure;  // z_B' by the clock [m/s]; gauge pressure [Pa]
+    double acceleration_by_turn;  // of the motion
+  };
+  void add_ring(size_t ring, const Stroke& stroke, const Eigen::VectorXd& y,
+                const Eigen::VectorXd& v);
   void add_tangent(const Instant& at, double kappa, double stroke_rate, Response& response);
 
   RingPackOptions options_;

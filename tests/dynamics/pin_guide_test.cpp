@@ -14,7 +14,7 @@ namespace {
 const SliderCrank kOffsetCrank(0.065, 0.21, 0.001, CrankClock{2000.0 * std::numbers::pi / 30.0});
 
 PinGuide guide_on_block() {
-  return PinGuide("pin_guide", {}, kOffsetCrank, {0, 1, 2}, std::array{3, 4, 5});
+  return PinGuide("pin_guide", {}, path_of_pin(kOffsetCrank), {0, 1, 2}, std::array{3, 4, 5});
 }
 
 Eigen::VectorXd six_numbers(double scale, unsigned seed) {
@@ -71,7 +71,8 @@ TEST(PinGuide, PowerBalancesExactly) {
 }
 
 TEST(PinGuide, WithoutABlockHoldsThePinToTheGround) {
-  PinGuide guide("pin_guide", {1e6, 1e2, 1e4, 1.0}, kOffsetCrank, {0, 1, 2}, std::nullopt);
+  PinGuide guide("pin_guide", {1e6, 1e2, 1e4, 1.0}, path_of_pin(kOffsetCrank), {0, 1, 2},
+                 std::nullopt);
   ASSERT_EQ(guide.coordinates().size(), 3U);
   Response response;
   guide.evaluate({0.001, 1e-6, 1, {}}, Eigen::Vector3d(1e-6, 1e-5, 0.0),

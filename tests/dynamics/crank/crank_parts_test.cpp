@@ -15,6 +15,7 @@
 #include "dynamics/crank/crank_gyroscope.hpp"
 #include "dynamics/crank/crank_load.hpp"
 #include "dynamics/crank/mean_torque.hpp"
+#include "dynamics/element/crank_angle.hpp"
 #include "dynamics/element/pair_element.hpp"
 #include "dynamics/law/joint_laws.hpp"
 #include "tests/dynamics/mechanisms.hpp"
@@ -41,6 +42,49 @@ PointWeights axis_at(double arm) {
   point.add(2, 0.0, -arm);
   point.add(3, arm, 0.0);
   return point;
+}
+
+TEST(CrankAngle, LeadsItsClockByTheTimeInWhichThatGetsThere) {
+  for (const Rotation rotation : {Rotation::kForward, Rotation::kBackward}) {
+    const double sign = rotation == Rotation::kForward ? 1.0 : -1.0;
+    const CrankAngle angle(crank_of(rotation), 0);
+    // Its rotation from the clock: a + a' t + a'' t^2 / 2.
+    const double a = 0.1, rate = 9.0, acceleration = -3000.0, kappa = 1e-5;
+    const auto lead = [&](double t, double more) {
+      Eigen::VectorXd y(1), v(1), known(1), before(1);
+      y << a + t * (rate + 0.5 * t * acceleration);
+      v << rate + t * acceleration;
+      known = v - kappa * Eigen::VectorXd::Constant(1, acceleration);
+      before = y - kappa * v;
+      Stage stage{2e-3 + t, kappa, 1, {}};
+      stage.y_begin = &before;
+      stage.v_begin = stage.v_known = &known;
+      return angle.lead(stage, (y.array() + more).matrix(), (v.array() + more / kappa).matrix());
+    };
+    const CrankLead at = lead(0.0, 0.0);
+    EXPECT_NEAR(kUneven.angle(2e-3 + at.now.position), kUneven.angle(2e-3) + sign * a, 1e-14);
+    EXPECT_NEAR(angle.at(2e-3, a, rate).angle, kUneven.angle(2e-3) - 0.3 + sign * a, 1e-15);
+    EXPECT_NEAR(kUneven.angle(2e-3 - kappa + at.begin.position),
+                kUneven.angle(2e-3 - kappa) + sign * (a - kappa * rate), 1e-14);
+    constexpr double kTime = 1e-6, kTurn = 1e-6;
+    const Motion<double> later = lead(kTime, 0.0).now, earlier = lead(-kTime, 0.0).now,
+                         more = lead(0.0, kTurn).now, less = lead(0.0, -kTurn).now;
+    EXPECT_NEAR((later.position - earlier.position) / (2.0 * kTime), at.now.velocity, 1e-8);
+    EXPECT_NEAR((later.velocity - earlier.velocity) / (2.0 * kTime), at.now.acceleration, 1e-5);
+    EXPECT_NEAR((more.position - less.position) / (2.0 * kTurn), at.by_turn.position, 1e-10);
+    EXPECT_NEAR((more.velocity - less.velocity) / (2.0 * kTurn), at.by_turn.velocity,
+                1e-6 * std::abs(at.by_turn.velocity));
+    EXPECT_NEAR((more.acceleration - less.acceleration) / (2.0 * kTurn), at.by_turn.acceleration,
+                1e-6 * std::abs(at.by_turn.acceleration));
+  }
+}
+
+TEST(CrankAngle, OfAClockLeadsByNothing) {
+  const CrankLead lead = CrankAngle().lead({2e-3, 1e-5, 1, {}}, {}, {});
+  const Motion<double> given{0.2, 3.0, -4e3}, seen = led(given, lead.now);
+  EXPECT_EQ(seen.position, given.position);
+  EXPECT_EQ(seen.velocity, given.velocity);
+  EXPECT_EQ(seen.acceleration, given.acceleration);
 }
 
 TEST(CrankPin, IsWhereTheTurnedCrankHasIt) {

@@ -71,5 +71,41 @@ TEST(Cover, ALinerShorterThanTwoRowsIsRefused) {
                      {"found ends at 0.1 and 0.109 m", "at least two rows of cells, 0.01 m"});
 }
 
+TEST(Cover, TheFilmsDerivativeByTheSpeedIsADifferenceQuotient) {
+  const Cover cover = cover_at(0.121);
+  const Eigen::ArrayXd gap =
+      along(kPad, [](double z) { return 15e-6 + 8e-6 * std::sin(90.0 * z); });
+  const Eigen::ArrayXd content =
+      gap * along(kPad, [](double z) { return 0.9 + 0.15 * std::sin(130.0 * z); });
+  const Edge open = Edge::supply(2e4, 0.7, 5e-6);
+  for (const Cavity cavity : {Cavity::kLayer, Cavity::kStriated})
+    for (const double speed : {-3.0, 3.0}) {
+      const auto solved = [&](double at) {
+        Reynolds film(kPad, {Edge::wall(), Edge::wall(), open, open, open}, true);
+        FilmStage stage{1e-4, 0.01, 0.0, at, false, 2e8};
+        stage.cavity = cavity;
+        stage.cover = &cover;
+        film.solve(smooth(gap), content * cover.of_cells(1), stage);
+        return film;
+      };
+      constexpr double kStep = 1e-6;
+      Reynolds at = solved(speed);
+      const Reynolds more = solved(speed + kStep), less = solved(speed - kStep);
+      const auto value = [](const Reynolds& film, int c) {
+        return film.is_full(c) ? film.pressure()[c] : film.fill()[c];
+      };
+      Eigen::ArrayXd derivative;
+      at.speed_sensitivity(derivative);
+      int full = 0, empty = 0;
+      for (int c = 0; c < kPad.size(); ++c) {
+        if (cover.share[c] == 0.0) continue;
+        ++(at.is_full(c) ? full : empty);
+        const double scale = at.is_full(c) ? derivative.abs().maxCoeff() : 1.0;
+        EXPECT_NEAR(derivative[c], (value(more, c) - value(less, c)) / (2.0 * kStep), 1e-6 * scale);
+      }
+      EXPECT_GT(std::min(full, empty), 0);
+    }
+}
+
 }  // namespace
 }  // namespace clatter::film
