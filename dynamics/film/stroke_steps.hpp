@@ -3,6 +3,7 @@
 // The stroke of the piston as the integrator's tableau has it.
 #include <array>
 #include <functional>
+#include <utility>
 
 #include "dynamics/element/crank_angle.hpp"
 
