@@ -139,7 +139,8 @@ class LinerShapeMap {
   LinerShape shape_;
   PadGrid pad_;
   CylinderStencil stencil_;
-  std::vector<CylinderStencil::Angular> columns_;     // of the pad's cells
+  std::vector<CylinderStencil::Angular> columns_;  // of the pad's cells
+  // Mutable: working memory of add(), so that no evaluation takes memory.
   mutable std::vector<CylinderStencil::Axial> rows_;  // at the last offset
 };
 

@@ -107,7 +107,7 @@ class LinerLayer {
   double height_ = 0.0;
   Eigen::ArrayXXd held_;                    // volume per length, n_angle x cells [m2]
   Eigen::ArrayXd owed_below_, owed_above_;  // taken before it was there, n_angle [m2]
-  mutable Eigen::ArrayXd sum_;
+  mutable Eigen::ArrayXd sum_;  // working memory, also of meet(), so that no step takes memory
   Eigen::ArrayXd rest_;
   OilBalance balance_;
 };
