@@ -42,6 +42,7 @@ class FreeRotation {
   double start_ = 0.0;
   Attitude first_;
   Eigen::Vector3d momentum_;  // L
+  // Mutable: the last result, as many ask for the same instant.
   mutable double time_ = 0.0;
   mutable Attitude last_;  // at time_
 };

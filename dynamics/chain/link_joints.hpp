@@ -64,6 +64,7 @@ class LinkJoints : public ForceElement {
   ChainMake make_;
   JointLaw law_;
   std::vector<std::vector<int>> groups_;
+  // Mutable: working memory, as power() places the links too.
   mutable std::vector<Eigen::Vector2d> halves_;     // from the centre of each link to its front pin
   std::vector<double> last_, finished_, accepted_;  // tensions
 };

@@ -129,6 +129,7 @@ class ProfileContact : public ForceElement {
   std::vector<std::vector<int>> groups_;  // per link; the last one: the carrier
   std::vector<std::vector<ContactHint>> hints_;
   std::vector<Clear> clear_;  // per link
+  // Mutable: working memory of the carrier's motion, which power() looks at as well.
   mutable PortState at_;
   mutable Eigen::VectorXd y_port_, v_port_;
   Motion motion_;

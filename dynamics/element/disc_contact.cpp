@@ -41,9 +41,8 @@ DiscContact::DiscContact(std::string name, std::vector<int> coordinates,
       radius_(radius),
       plane_(plane) {}
 
-DiscContact::Touch DiscContact::touch(double time, const VectorXd& y, const VectorXd& v) const {
-  time_ = time;
-  frame_->rotate(time, y, v, state_);
+DiscContact::Touch DiscContact::touch(const VectorXd& y, const VectorXd& v) const {
+  frame_->rotate(time_, y, v, state_);
   const Vector3d& n = plane_.normal;
   Touch at;
   at.axis = state_.A * axis_;
@@ -66,7 +65,8 @@ DiscContact::Touch DiscContact::touch(double time, const VectorXd& y, const Vect
 
 void DiscContact::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v,
                            bool with_tangent, Response& response) {
-  const Touch at = touch(stage.time, y, v);
+  time_ = stage.time;
+  const Touch at = touch(y, v);
   response.force.setZero(kSpatial);
   response.force.segment<3>(kCentre) = at.force;
   response.force.segment<3>(kMomentum) = at.arm.cross(at.force);
@@ -99,7 +99,7 @@ void DiscContact::evaluate(const Stage& stage, const VectorXd& y, const VectorXd
 }
 
 Power DiscContact::power(const VectorXd& y, const VectorXd& v) const {
-  const Touch at = touch(time_, y, v);
+  const Touch at = touch(y, v);
   const double elastic = plane_.stiffness * at.depth;
   return {0.5 * elastic * at.depth, (at.normal - elastic) * at.rate - at.force.dot(at.slip), 0.0};
 }

@@ -45,15 +45,15 @@ class DiscContact : public ForceElement {
 
  private:
   struct Touch;
-  Touch touch(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const;
+  Touch touch(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const;
 
   std::string name_;
   std::shared_ptr<const SpatialFrame> frame_;
   Eigen::Vector3d axis_;
   double radius_;
   DiscPlane plane_;
-  mutable double time_ = 0.0;
-  mutable SpatialState state_;
+  double time_ = 0.0;           // of the last evaluation
+  mutable SpatialState state_;  // working memory of touch(), which power() calls too
 };
 
 }  // namespace clatter::dynamics

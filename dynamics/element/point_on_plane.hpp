@@ -52,6 +52,7 @@ class PointOnPlane {
  private:
   std::unique_ptr<Port> a_, b_;
   Eigen::Vector3d plane_;
+  // Mutable: what is known of the last motion, which events and power() look at as well.
   mutable PortState at_a_, at_b_;
   mutable PlaneMotion at_;
   mutable Eigen::VectorXd y_a_, y_b_, v_a_, v_b_;

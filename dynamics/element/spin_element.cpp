@@ -22,25 +22,26 @@ SpinElement::SpinElement(std::string body, std::vector<int> coordinates,
                          std::shared_ptr<SpatialFrame> frame, const VectorXd& y_start,
                          const VectorXd& v_start)
     : ForceElement(std::move(coordinates)), body_(std::move(body)), frame_(std::move(frame)) {
-  rotate(frame_->free().start(), y_start, v_start);
+  time_ = frame_->free().start();
+  rotate(y_start, v_start);
   h_rate_ = VectorXd::Zero(frame_->modes());
   stage_rate_.fill(h_rate_);
   h_ = frame_->modes() > 0 ? VectorXd(state_.H.transpose() * state_.w) : h_rate_;
 }
 
-void SpinElement::rotate(double time, const VectorXd& y, const VectorXd& v) const {
-  time_ = time;
+void SpinElement::rotate(const VectorXd& y, const VectorXd& v) const {
   all_y_.setZero(kTurn + y.size());
   all_v_.setZero(kTurn + v.size());
   all_y_.tail(y.size()) = y;
   all_v_.tail(v.size()) = v;
-  frame_->rotate(time, all_y_, all_v_, state_);
+  frame_->rotate(time_, all_y_, all_v_, state_);
 }
 
 void SpinElement::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v,
                            bool with_tangent, Response& response) {
   const int size = static_cast<int>(y.size());
-  rotate(stage.time, y, v);
+  time_ = stage.time;
+  rotate(y, v);
   Eigen::Matrix4d by_p;
   Matrix43 by_spin;
   response.force.setZero(size);
@@ -103,7 +104,7 @@ void SpinElement::accept_step(double) {
 }
 
 Power SpinElement::power(const VectorXd& y, const VectorXd& v) const {
-  rotate(time_, y, v);
+  rotate(y, v);
   double stored = 0.5 * state_.w.dot(state_.J * state_.w);
   if (frame_->modes() > 0) stored += state_.w.dot(state_.H * v.tail(frame_->modes()));
   return {stored, 0.0, 0.0};

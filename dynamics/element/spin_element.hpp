@@ -42,12 +42,13 @@ class SpinElement : public ForceElement {
   void restore(const std::vector<double>& state) override;
 
  private:
-  void rotate(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const;
+  void rotate(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const;
   void add_modes(const Stage& stage, bool with_tangent, Response& response);
 
   std::string body_;
   std::shared_ptr<SpatialFrame> frame_;
-  mutable double time_ = 0.0;
+  double time_ = 0.0;  // of the last evaluation
+  // Mutable: the state of the last rotate(), which power() calls too.
   mutable Eigen::VectorXd all_y_, all_v_;  // with the centre, which has no part in it
   mutable SpatialState state_;
   bool started_ = false;

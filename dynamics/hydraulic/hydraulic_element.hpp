@@ -84,7 +84,7 @@ class HydraulicElement : public ForceElement {
                bool with_tangent, Response& response) const;
 
   std::string name_;
-  mutable PlungerAxis axis_;
+  mutable PlungerAxis axis_;  // it keeps its last motion, which power() looks at as well
   Chamber chamber_;
   PlungerSpring spring_;
   PlungerStops stops_;
@@ -93,7 +93,7 @@ class HydraulicElement : public ForceElement {
   int plunger_size_;
   bool has_ball_;
   Instant last_, finished_, accepted_;
-  mutable Instant at_;
+  mutable Instant at_;                   // of power(): working memory
   std::array<std::string, 8> recorded_;  // names of histories
   Eigen::RowVectorXd row_;               // dF/dy
 };

@@ -118,7 +118,7 @@ class BodyElimination {
   std::vector<double> size_;  // of an unknown: S_ii times the sum of all |T_ii|
   Eigen::MatrixXd F_end_;
   DenseLu lu_;
-  mutable std::vector<double> forces_, part_;
+  mutable std::vector<double> forces_, part_;  // working memory: no solve takes memory
 };
 
 }  // namespace clatter::dynamics

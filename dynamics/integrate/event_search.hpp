@@ -51,7 +51,7 @@ class EventSearch {
 
   const System* system_;
   std::vector<Function> functions_;
-  mutable Eigen::VectorXd y_, v_;  // of one element
+  mutable Eigen::VectorXd y_, v_;  // of one element: working memory, so that no step takes memory
 };
 
 }  // namespace clatter::dynamics

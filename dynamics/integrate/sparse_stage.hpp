@@ -56,7 +56,7 @@ class SparseStage {
   double kappa_ = 0.0;  // of graph_.S; 0: not formed
   std::optional<BodyElimination> by_bodies_, at_once_;
   bool started_ = false, is_dense_ = false;
-  mutable std::vector<double> right_;
+  mutable std::vector<double> right_;  // working memory: no solve takes memory
 };
 
 }  // namespace clatter::dynamics

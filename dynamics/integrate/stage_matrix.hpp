@@ -72,6 +72,7 @@ class StageMatrix {
   std::vector<int> rows_, columns_;          // of T_ that are not negligible
   std::vector<double> S_part_, T_part_;      // blocks of S_ and T_ in those
   DenseLu lu_;                               // of J in columns_
+  // Mutable: working memory of the solves, so that no step takes memory.
   mutable Eigen::VectorXd right_, forces_, moved_;
   mutable std::vector<double> solved_;  // in columns_, whose number changes
 };

@@ -59,6 +59,7 @@ class StageOperator {
   Eigen::VectorXd alpha_, beta_;           // of the modes
   Eigen::VectorXd from_eta_, from_v_;      // the filter
   Eigen::VectorXd moving_share_;
+  // Mutable: formed when first asked for; working memory, so that no step takes memory.
   mutable std::vector<double> S_;                         // of all bodies; empty: not formed
   mutable std::vector<size_t> S_starts_;                  // per body
   mutable std::vector<Eigen::VectorXd> part_, modal_;     // per body: its rows, its modes or rows

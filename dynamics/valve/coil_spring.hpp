@@ -92,7 +92,7 @@ class CoilSpring : public ForceElement {
 
   std::string name_;
   std::array<std::string, 3> recorded_;
-  mutable CoilEnd a_, b_;
+  mutable CoilEnd a_, b_;  // they keep their last motion, which power() looks at as well
   std::vector<CoilLaw> laws_;
   std::vector<std::vector<int>> groups_;  // one a part
   Eigen::Index first_;                    // place of the first mass among the coordinates
