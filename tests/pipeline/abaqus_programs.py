@@ -149,6 +149,47 @@ HINGE = (flat_halves() + "*NODE\n901, 5., 5., 20.\n902, 5., 5., 20.\n903, 5., 5.
          f"4\n904, 2, {HINGE_C!r}, 902, 2, {-HINGE_C!r}, 904, 1, {-HINGE_S!r}, 902, 1, {HINGE_S!r}\n2\n904, 3, 1., 902, 3, -1.\n"
          + HELD + FREQUENCY)
 
+# Two wooden bars, the second turned about (50, 0, 0) by 70 degrees about (1, 1, 1), with axes of the material in the part, mass
+# on both and a spring between their tips.
+GRAIN = math.radians(40.0)
+
+
+def turned(x, about=(0.0, 0.0, 0.0)):
+    """Rodrigues' formula, of the position x from `about`."""
+    angle, axis = math.radians(70.0), [1 / math.sqrt(3.0)] * 3
+    x = [a - b for a, b in zip(x, about)]
+    across = [axis[1] * x[2] - axis[2] * x[1], axis[2] * x[0] - axis[0] * x[2], axis[0] * x[1] - axis[1] * x[0]]
+    along = sum(a * b for a, b in zip(axis, x)) * (1 - math.cos(angle))
+    return [math.cos(angle) * a + math.sin(angle) * b + along * c + d for a, b, c, d in zip(x, across, axis, about)]
+
+
+def cae_turned_twice():
+    part = cae_part(inside="*Orientation, name=Ori\n1., 0., 0., 0., 1., 0.\n3, 40.\n",
+                    section="*Solid Section, elset=Set-1, material=Steel, orientation=Ori\n,\n")
+    sets = "".join(f"*Nset, nset=Fixed, instance=Bar-{k}, generate\n 1, 9, 1\n*Elset, elset=Both, instance=Bar-{k}\n Set-1,\n" for k in (1, 2))
+    return (CAE_HEAD + part + "*Assembly, name=Assembly\n*Instance, name=Bar-1, part=Bar\n*End Instance\n"
+            "*Instance, name=Bar-2, part=Bar\n 50., 0., 0.\n 50., 0., 0., 51., 1., 1., 70.\n*End Instance\n" + sets
+            + "*Nonstructural Mass, elset=Both, units=TOTAL MASS\n4e-06,\n*Element, type=CONN3D2, elset=Wire-1\n1, Bar-1.77, Bar-2.77\n"
+            "*Connector Section, elset=Wire-1, behavior=K\nAxial,\n*End Assembly\n*Connector Behavior, name=K\n"
+            "*Connector Elasticity, component=1\n800.,\n" + CAE_WOOD + CAE_STEP)
+
+
+def flat_turned_twice():
+    def away(number):
+        x, y, z = bar.position(number)
+        return turned([x + 50.0, y, z], (50.0, 0.0, 0.0))
+
+    fibres = [math.cos(GRAIN), math.sin(GRAIN), 0.0], [-math.sin(GRAIN), math.cos(GRAIN), 0.0]
+    axes = {1: [*fibres[0], *fibres[1]], 2: [*turned(fibres[0]), *turned(fibres[1])]}
+    wood = WOOD.replace("5.E-10", "1.E-9")  # 4e-6 t on two bars of 4000 mm3
+    return ("*NODE, NSET=NALL\n" + nodes(range(1, 82)) + nodes(range(1, 82), 100, away) + "*ELEMENT, TYPE=C3D8, ELSET=B1\n" + bar.cells()
+            + "*ELEMENT, TYPE=C3D8, ELSET=B2\n" + bar.cells(shift=100, node_shift=100)
+            + "*NSET, NSET=FOOT\n" + listed([*range(1, 10), *range(101, 110)]) + wood
+            + "".join(f"*ORIENTATION, NAME=O{k}\n{', '.join(map(repr, at))}\n*SOLID SECTION, ELSET=B{k}, MATERIAL=STEEL, ORIENTATION=O{k}\n"
+                      for k, at in axes.items())
+            + "*ELEMENT, TYPE=SPRINGA, ELSET=K\n950, 77, 177\n*SPRING, ELSET=K\n\n800.\n" + HELD + FREQUENCY)
+
+
 SPRINGS = "".join(f"*ELEMENT, TYPE=SPRING1, ELSET=G{k}\n{900 + k}, {73 + k}\n*SPRING, ELSET=G{k}\n{k}\n{500.0 * k}\n" for k in (1, 2, 3))
 CAE_SPRINGS = "".join(f"*Spring, elset=\"Springs/Dashpots-{k}-spring\"\n{k}\n{500.0 * k}\n"
                       f"*Element, type=Spring1, elset=\"Springs/Dashpots-{k}-spring\"\n{k}, Bar-1.{73 + k}\n" for k in (1, 2, 3))
@@ -472,6 +513,7 @@ add("cae_connector_beam", A, cae(assembly=CAE_POINT + cae_surface("Top", "C3D8",
                                  + "*Element, type=CONN3D2, elset=Wire-1\n7, 2, 1\n*Connector Section, elset=Wire-1\nBeam,\n"),
     plain(model=ONE_MASS))
 add("cae_hinge", A, cae_hinge(), HINGE)
+add("cae_turned_twice", A, cae_turned_twice(), flat_turned_twice())
 add("cae_contact_that_opens", A, cae_halves("*Contact Pair, interaction=IntProp-1, type=SURFACE TO SURFACE\nHalf-2.Bottom, Half-1.Upper\n")
     .replace("*End Assembly\n", "*End Assembly\n*Surface Interaction, name=IntProp-1\n1.,\n*Friction\n 0.2,\n"), None)
 add("cae_shell_stiffener", A, cae(part="*Element, type=S4R, elset=Rib\n101, 3, 83, 84, 12\n*Node\n83, 20., 0., 0.\n84, 20., 0., 5.\n"

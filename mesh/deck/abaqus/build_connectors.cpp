@@ -119,6 +119,7 @@ class Connector {
     if (beyond != 0)
       fail(fmt::format("its behavior has the component {}, which {} does not",
                        1 + std::countr_zero(beyond), section_.types));
+    if (rows_[0] == rows_[1]) fail("found one node twice, expected two nodes");
     read_axes();
     if (rigid != 0 && grounded())
       fail("a rigid connection to the ground; *BOUNDARY of its node replaces it");
@@ -235,6 +236,7 @@ class Connector {
       const auto own = std::find_if(terms.begin(), terms.end(), [&](const Equation::Term& term) {
         return term.node_index == ends_[first / 6] && term.direction == first % 6 + pivots[i];
       });
+      if (own == terms.end()) fail("its nodes are too far from each other");
       std::iter_swap(terms.begin(), own);
       model_.deck.equations.push_back({where(), std::move(terms)});
     }
@@ -242,6 +244,7 @@ class Connector {
 
   /// Displacements before rotations.
   std::vector<Equation::Term> terms_of(const Row12& row) const {
+    if (!row.allFinite()) fail("its numbers are too large");
     std::vector<Equation::Term> terms;
     const double least = 1e-14 * row.cwiseAbs().maxCoeff();
     for (const int base : {0, 3})
@@ -285,6 +288,7 @@ class Connector {
     for (int k = 0; k < 6; ++k)
       if (!has(free, k)) D.row(k).setZero(), D.col(k).setZero();
     const Eigen::SelfAdjointEigenSolver<Matrix6> solved(D);
+    if (!solved.eigenvalues().allFinite()) fail("its numbers are too large");
     const double most = solved.eigenvalues().cwiseAbs().maxCoeff();
     for (int i = 0; i < 6; ++i) {
       const double stiffness = solved.eigenvalues()(i);

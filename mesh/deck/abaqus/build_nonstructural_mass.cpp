@@ -103,7 +103,7 @@ class Densities {
         model_.source.fail(card.origin(),
                            "*NONSTRUCTURAL MASS: its elements have no *SOLID SECTION");
       added_[r] += value * (by_mass ? density(r) : 1.0);
-      if (!(density(r) + added_[r] > 0.0))
+      if (!(density(r) + added_[r] > 0.0) || !std::isfinite(added_[r]))
         model_.source.fail(card.origin(), fmt::format("*NONSTRUCTURAL MASS: leaves a density of "
                                                       "{}, expected more than 0",
                                                       density(r) + added_[r]));

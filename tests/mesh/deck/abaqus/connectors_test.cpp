@@ -207,6 +207,10 @@ TEST(AbaqusConnector, WhatIsNotLinearIsRefusedByName) {
               HasSubstr("a translational and a rotational one"));
   EXPECT_THAT(refusal(connector("Cartesian", "*CONNECTOR ELASTICITY, COMPONENT=5\n7.\n")),
               HasSubstr("deck.inp:28: element 50 (Cartesian): its behavior has the component 5"));
+  EXPECT_THAT(refusal(kModel + kEnds +
+                      "*ELEMENT, TYPE=CONN3D2, ELSET=D\n60, 21, 21\n"
+                      "*CONNECTOR SECTION, ELSET=D\nHinge\n"),
+              HasSubstr("element 60 (Hinge): found one node twice"));
   EXPECT_THAT(refusal(kModel + kEnds),
               HasSubstr("deck.inp:28: element 50 of type CONN3D2 has no *CONNECTOR SECTION"));
   EXPECT_THAT(refusal(kModel + "*ELEMENT, TYPE=CONN3D2, ELSET=C\n50, 7, 9\n"
