@@ -213,6 +213,9 @@ TEST(AbaqusConnector, WhatIsNotLinearIsRefusedByName) {
               HasSubstr("element 60 (Hinge): found one node twice"));
   EXPECT_THAT(refusal(kModel + kEnds),
               HasSubstr("deck.inp:28: element 50 of type CONN3D2 has no *CONNECTOR SECTION"));
+  EXPECT_THAT(refusal(kModel + "*NODE\n21, 0, 0, 0\n22, 1E20, 1E19, 0\n*ELEMENT, TYPE=CONN3D2, "
+                               "ELSET=C\n50, 21, 22\n*CONNECTOR SECTION, ELSET=C\nHinge\n"),
+              HasSubstr("element 50 (Hinge): its nodes are too far from each other"));
   EXPECT_THAT(refusal(kModel + "*ELEMENT, TYPE=CONN3D2, ELSET=C\n50, 7, 9\n"
                                "*CONNECTOR SECTION, ELSET=C\nHinge\n"),
               HasSubstr("node 7 belongs to a solid and has no rotations"));
