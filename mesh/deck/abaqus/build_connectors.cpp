@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "mesh/deck/abaqus/connector_behavior.hpp"
 #include "mesh/deck/abaqus/connector_kinds.hpp"
 #include "mesh/deck/abaqus/model.hpp"
 #include "mesh/deck/system_axes.hpp"
@@ -23,77 +24,14 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Row12 = Eigen::Matrix<double, 1, 12>;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, 12, Eigen::RowMajor, 6, 12>;
 
-/// *CONNECTOR BEHAVIOR with what follows it.
-struct Behavior {
-  Matrix6 stiffness = Matrix6::Zero();
-  DofMask elastic = 0, rigid = 0;
-  bool coupled = false;  // all components that the connection has
-};
-
 bool has(DofMask mask, int k) { return (mask >> k & 1) != 0; }
-
-void read_elasticity(const Card& card, Behavior& behavior, const Source& source) {
-  const Keyword& keyword = card.keyword();
-  if (const std::string* text = keyword.find("COMPONENT")) {
-    const int k = Fields(*text, source, card.origin()).integer(0, "COMPONENT", 1, 6) - 1;
-    const auto bit = static_cast<DofMask>(1 << k);
-    if (has(behavior.elastic | behavior.rigid, k))
-      source.fail(card.origin(),
-                  fmt::format("{}: component {} has an elasticity already", keyword.name, k + 1));
-    if (keyword.has("RIGID")) {
-      behavior.rigid = static_cast<DofMask>(behavior.rigid | bit);
-      return;
-    }
-    behavior.stiffness(k, k) = stiffness_of(card, 0, source);
-    behavior.elastic = static_cast<DofMask>(behavior.elastic | bit);
-    return;
-  }
-  std::vector<double> upper;  // D11 D12 D22 D13 ...
-  for (size_t i = 0; i < card.size(); ++i) {
-    const Fields fields = card.line(i, source);
-    for (size_t f = 0; f < fields.size(); ++f) upper.push_back(fields.number(f, "stiffness"));
-  }
-  if (keyword.has("RIGID") || keyword.has("NONLINEAR") || upper.size() != 21)
-    source.fail(card.origin(),
-                fmt::format("{}: expected COMPONENT, or the 21 numbers of a coupled linear "
-                            "stiffness",
-                            keyword.name));
-  auto value = upper.begin();
-  for (int j = 0; j < 6; ++j)
-    for (int i = 0; i <= j; ++i) behavior.stiffness(i, j) = behavior.stiffness(j, i) = *value++;
-  behavior.coupled = true;
-}
-
-std::map<std::string, Behavior> read_behaviors(const Model& model) {
-  std::map<std::string, Behavior> behaviors;
-  Behavior* open = nullptr;
-  for_each_card(model, {"CONNECTORBEHAVIOR", "CONNECTORELASTICITY"}, [&](size_t, const Card& card) {
-    const Keyword& keyword = card.keyword();
-    if (keyword.key == "CONNECTORBEHAVIOR") {
-      open = nullptr;
-      keyword.allow({"NAME"}, model.source, model.ignore);
-      const auto [at, is_new] =
-          behaviors.emplace(folded(keyword.required("NAME", model.source)), Behavior());
-      if (!is_new) model.source.fail(card.origin(), "found a second behavior of this name");
-      open = &at->second;
-      return;
-    }
-    keyword.allow({"COMPONENT", "NONLINEAR", "RIGID"}, model.source, model.ignore);
-    if (open == nullptr)
-      model.source.fail(
-          card.origin(),
-          fmt::format("found {}, expected it after *CONNECTOR BEHAVIOR", keyword.name));
-    read_elasticity(card, *open, model.source);
-  });
-  return behaviors;
-}
 
 /// *CONNECTOR SECTION.
 struct Section {
   std::string types;
   ConnectorKind kind;
   std::array<std::string, 2> systems;  // of the first and of the second node; empty: basic
-  Behavior behavior;
+  ConnectorBehavior behavior;
 };
 
 class Connector {
@@ -258,7 +196,7 @@ class Connector {
   }
 
   void add_springs(DofMask free) {
-    const Behavior& behavior = section_.behavior;
+    const ConnectorBehavior& behavior = section_.behavior;
     if (behavior.coupled) return add_coupled(free);
     bool left_out = false;
     for (int k = 0; k < 6; ++k) {
@@ -319,7 +257,7 @@ class Connector {
 };
 
 Section section_of(const Model& model, size_t use, const Card& card,
-                   const std::map<std::string, Behavior>& behaviors) {
+                   const std::map<std::string, ConnectorBehavior>& behaviors) {
   const Keyword& keyword = card.keyword();
   keyword.allow({"ELSET", "BEHAVIOR"}, model.source, model.ignore);
   if (card.size() < 1 || card.size() > 2)
@@ -380,7 +318,7 @@ void build_connectors(Model& model) {
   const auto is_connector = [](const PointElement& one) { return one.type == kConnector; };
   if (std::none_of(all.begin(), all.end(), is_connector)) return;
   const size_t refused = model.refusals.size();
-  const std::map<std::string, Behavior> behaviors = read_behaviors(model);
+  const std::map<std::string, ConnectorBehavior> behaviors = connector_behaviors(model);
   const std::set<int32_t> bound = bound_rows(model);
   std::set<Origin> described;
   for_each_card(model, {"CONNECTORSECTION"}, [&](size_t use, const Card& card) {
