@@ -11,7 +11,7 @@ void read_elasticity(const Card& card, ConnectorBehavior& behavior, const Source
   if (const std::string* text = keyword.find("COMPONENT")) {
     const int k = Fields(*text, source, card.origin()).integer(0, "COMPONENT", 1, 6) - 1;
     const auto bit = static_cast<DofMask>(1 << k);
-    if (((behavior.elastic | behavior.rigid) & bit) != 0)
+    if (behavior.coupled || ((behavior.elastic | behavior.rigid) & bit) != 0)
       source.fail(card.origin(),
                   fmt::format("{}: component {} has an elasticity already", keyword.name, k + 1));
     if (keyword.has("RIGID")) {
@@ -22,6 +22,9 @@ void read_elasticity(const Card& card, ConnectorBehavior& behavior, const Source
     behavior.elastic = static_cast<DofMask>(behavior.elastic | bit);
     return;
   }
+  if (behavior.coupled || (behavior.elastic | behavior.rigid) != 0)
+    source.fail(card.origin(),
+                fmt::format("{}: its components have an elasticity already", keyword.name));
   std::vector<double> upper;  // D11 D12 D22 D13 ...
   for (size_t i = 0; i < card.size(); ++i) {
     const Fields fields = card.line(i, source);

@@ -222,6 +222,10 @@ TEST(AbaqusConnector, WhatIsNotLinearIsRefusedByName) {
   EXPECT_THAT(refusal(kModel + "*ELEMENT, TYPE=CONN3D2, ELSET=C\n50, 7,\n"
                                "*CONNECTOR SECTION, ELSET=C\nBeam\n"),
               HasSubstr("*BOUNDARY of its node replaces it"));
+  EXPECT_THAT(refusal(connector("Bushing",
+                                "*CONNECTOR ELASTICITY, COMPONENT=1\n7.\n"
+                                "*CONNECTOR ELASTICITY\n1., 0., 1.\n")),
+              HasSubstr("*CONNECTOR ELASTICITY: its components have an elasticity already"));
   EXPECT_THAT(refusal(connector("Bushing", "*CONNECTOR STOP, COMPONENT=1\n0., 1.\n")),
               HasSubstr("its connections: [[spring]] and [[equation]]"));
   EXPECT_THAT(refusal(kModel + kEnds + "*CONNECTOR SECTION, ELSET=C, BEHAVIOR=X\nBushing\n"),
