@@ -22,8 +22,8 @@ const keys::Keys<RecipeTable>& RecipeKeys::file_keys() {
     key.named("material", file.materials, material_keys());
     key.then(
         [this](const Config& config, RecipeTable& f) { finish_materials(config, f.materials); });
-    key.table("matrices", file.matrix_files, matrix_files_keys());
-    key.one_of({"material", "matrices"});
+    key.table("matrices", file.matrix_files, matrix_files_keys())
+        .excludes("material", "the matrices are the part");
     key.table("mass", file.mass, mass_keys());
     key.table("damping", file.damping, damping_keys());
     key.tables("point", file.points, point_keys());

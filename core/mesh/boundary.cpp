@@ -125,14 +125,6 @@ Eigen::Vector3d outward_direction(const Mesh& mesh, const BoundaryFace& face) {
 
 }  // namespace
 
-FaceKey face_key(FaceType type, std::span<const int32_t> nodes) {
-  FaceKey key = {-1, -1, -1, -1};
-  const auto corners = static_cast<size_t>(traits(type).corners);
-  for (size_t i = 0; i < corners; ++i) key[4 - corners + i] = nodes[i];
-  std::sort(key.end() - static_cast<std::ptrdiff_t>(corners), key.end());
-  return key;
-}
-
 namespace {
 
 /// Two cells of the same corners share all their faces, and hide them from the boundary.

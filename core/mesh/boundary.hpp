@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <utility>
 
 #include "core/mesh/mesh.hpp"
 
@@ -14,7 +15,19 @@ namespace clatter::mesh {
 /// Corner nodes of a face, ascending, a triangle with -1 before them: the same for both cells that
 /// share it.
 using FaceKey = std::array<int32_t, 4>;
-FaceKey face_key(FaceType type, std::span<const int32_t> nodes);
+inline FaceKey face_key(FaceType type, std::span<const int32_t> nodes) {
+  const auto order = [](int32_t& a, int32_t& b) {
+    if (b < a) std::swap(a, b);
+  };
+  FaceKey key = {-1, nodes[0], nodes[1], nodes[2]};
+  order(key[1], key[2]);
+  order(key[2], key[3]);
+  order(key[1], key[2]);
+  if (traits(type).corners == 3) return key;
+  key[0] = nodes[3];
+  for (size_t i = 0; i < 3; ++i) order(key[i], key[i + 1]);
+  return key;
+}
 
 /// A face of one cell.
 struct BoundaryFace {

@@ -3,40 +3,29 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <utility>
+#include <span>
 
 namespace clatter::mesh {
 
 namespace {
 
-bool before(const FaceRef& a, const FaceRef& b) { return a.key < b.key; }
-
-// In linear time up to the few faces of each lowest corner: triangles, whose keys begin with -1,
-// then quadrangles. Few faces of high numbers are sorted directly.
-void sort_by_key(std::vector<FaceRef>& faces) {
-  constexpr size_t kUnordered = std::numeric_limits<size_t>::max();  // numbers below 0
-  size_t nodes = 0;
-  for (const FaceRef& face : faces)
-    nodes = std::max(nodes, face.key[1] < 0 ? kUnordered : static_cast<size_t>(face.key[3]) + 1);
-  if (nodes > faces.size()) {
-    std::sort(faces.begin(), faces.end(), before);
-    return;
+template <class Visit>
+void for_each_face_of_cells(const Mesh& mesh, const Visit& visit) {
+  for (size_t b = 0; b < mesh.cells.size(); ++b) {
+    const IndexMatrix& nodes = mesh.cells[b].nodes;
+    const std::span<const CellFace> faces = traits(mesh.cells[b].type).faces;
+    for (Eigen::Index c = 0; c < nodes.rows(); ++c)
+      for (size_t f = 0; f < faces.size(); ++f) {
+        std::array<int32_t, 4> corners{};
+        for (int i = 0; i < traits(faces[f].type).corners; ++i)
+          corners[i] = nodes(c, faces[f].nodes[i]);
+        visit(FaceRef{face_key(faces[f].type, corners), static_cast<int32_t>(b),
+                      static_cast<int32_t>(c), static_cast<int32_t>(f)});
+      }
   }
-  const auto lowest = [&](const FaceRef& face) {
-    return face.key[0] < 0 ? static_cast<size_t>(face.key[1])
-                           : nodes + static_cast<size_t>(face.key[0]);
-  };
-  std::vector<int64_t> end(2 * nodes + 1, 0);
-  for (const FaceRef& face : faces) ++end[lowest(face) + 1];
-  for (size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
-  std::vector<FaceRef> sorted(faces.size());
-  for (const FaceRef& face : faces) sorted[end[lowest(face)]++] = face;
-  int64_t begin = 0;
-  for (size_t i = 0; i + 1 < end.size(); begin = end[i], ++i)
-    std::sort(sorted.begin() + begin, sorted.begin() + end[i], before);
-  faces = std::move(sorted);
 }
+
+bool before(const FaceRef& a, const FaceRef& b) { return a.key < b.key; }
 
 }  // namespace
 
@@ -50,25 +39,35 @@ BoundaryFace face_at(const Mesh& mesh, const FaceRef& ref) {
   return face;
 }
 
+// In linear time up to the few faces of each lowest corner: triangles, whose keys begin with -1,
+// then quadrangles. Few faces of high numbers are sorted directly, and those of invalid ones.
 std::vector<FaceRef> all_faces(const Mesh& mesh) {
+  size_t count = 0, nodes = 0;
+  bool valid = true;
+  for_each_face_of_cells(mesh, [&](const FaceRef& face) {
+    ++count;
+    valid = valid && face.key[1] >= 0;
+    nodes = std::max(nodes, static_cast<size_t>(face.key[3]) + 1);
+  });
   std::vector<FaceRef> faces;
-  int64_t count = 0;
-  for (const CellBlock& block : mesh.cells)
-    count += block.nodes.rows() * static_cast<int64_t>(traits(block.type).faces.size());
-  faces.reserve(count);
-  for (size_t b = 0; b < mesh.cells.size(); ++b) {
-    const auto n_faces = static_cast<int32_t>(traits(mesh.cells[b].type).faces.size());
-    for (Eigen::Index c = 0; c < mesh.cells[b].nodes.rows(); ++c)
-      for (int32_t f = 0; f < n_faces; ++f) {
-        const CellFace& local = traits(mesh.cells[b].type).faces[f];
-        std::array<int32_t, 4> corners{};
-        for (size_t i = 0; i < static_cast<size_t>(traits(local.type).corners); ++i)
-          corners[i] = mesh.cells[b].nodes(c, local.nodes[i]);
-        faces.push_back(
-            {face_key(local.type, corners), static_cast<int32_t>(b), static_cast<int32_t>(c), f});
-      }
+  if (!valid || nodes > count) {
+    faces.reserve(count);
+    for_each_face_of_cells(mesh, [&](const FaceRef& face) { faces.push_back(face); });
+    std::sort(faces.begin(), faces.end(), before);
+    return faces;
   }
-  sort_by_key(faces);
+  const auto lowest = [&](const FaceRef& face) {
+    return face.key[0] < 0 ? static_cast<size_t>(face.key[1])
+                           : nodes + static_cast<size_t>(face.key[0]);
+  };
+  std::vector<int64_t> end(2 * nodes + 1, 0);
+  for_each_face_of_cells(mesh, [&](const FaceRef& face) { ++end[lowest(face) + 1]; });
+  for (size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
+  faces.resize(count);
+  for_each_face_of_cells(mesh, [&](const FaceRef& face) { faces[end[lowest(face)]++] = face; });
+  int64_t begin = 0;
+  for (size_t i = 0; i + 1 < end.size(); begin = end[i], ++i)
+    std::sort(faces.begin() + begin, faces.begin() + end[i], before);
   return faces;
 }
 

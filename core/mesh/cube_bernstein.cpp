@@ -14,8 +14,6 @@ namespace {
 // Degrees of det J along the cube's axes; a test checks that the interpolation is exact.
 std::array<int, 3> degree_of(CellType type) {
   switch (type) {
-    case CellType::kHex8:
-      return {2, 2, 2};
     case CellType::kHex20:
       return {5, 5, 5};
     case CellType::kWedge6:
@@ -81,7 +79,9 @@ Sampling make_sampling(CellType type) {
 const Sampling& sampling_of(CellType type) {
   static const std::array<Sampling, kCellTypes> all = [] {
     std::array<Sampling, kCellTypes> out;
-    for (int t = 2; t < kCellTypes; ++t) out[t] = make_sampling(static_cast<CellType>(t));
+    for (int t = 2; t < kCellTypes; ++t)
+      if (const auto type = static_cast<CellType>(t); type != CellType::kHex8)
+        out[t] = make_sampling(type);
     return out;
   }();
   return all[static_cast<size_t>(type)];
@@ -114,6 +114,32 @@ Tangents tangents(const Eigen::MatrixXd& gradient, const Eigen::Ref<const Eigen:
   return t;
 }
 
+// The tangents of a trilinear hexahedron are bilinear, its edges their Bernstein coefficients: det
+// J is the sum of the triple products of edges, with B1_i B1_j = B2_{i+j} / C(2, i + j).
+CubePolynomial of_edges(const Eigen::Ref<const Eigen::MatrixXd>& x) {
+  const auto corner = [&](int i, int j, int k) -> Eigen::Vector3d {
+    constexpr int kAround[2][2] = {{0, 3}, {1, 2}};
+    return x.row(kAround[i][j] + 4 * k);
+  };
+  Eigen::Vector3d a[2][2], b[2][2], c[2][2];
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) {
+      a[i][j] = 0.5 * (corner(1, i, j) - corner(0, i, j));
+      b[i][j] = 0.5 * (corner(i, 1, j) - corner(i, 0, j));
+      c[i][j] = 0.5 * (corner(i, j, 1) - corner(i, j, 0));
+    }
+  CubePolynomial p{{2, 2, 2}, CubeValues::Zero(27)};
+  for (int pair = 0; pair < 16; ++pair) {  // an edge along the second axis, one along the third
+    const int ib = pair & 1, kb = pair >> 1 & 1, ic = pair >> 2 & 1, jc = pair >> 3;
+    const Eigen::Vector3d normal = (ib == ic ? 1.0 : 0.5) * b[ib][kb].cross(c[ic][jc]);
+    for (int ja = 0; ja < 2; ++ja)
+      for (int ka = 0; ka < 2; ++ka)
+        p.coefficients(p.index(ib + ic, ja + jc, ka + kb)) +=
+            (ja == jc ? 1.0 : 0.5) * (ka == kb ? 1.0 : 0.5) * a[ja][ka].dot(normal);
+  }
+  return p;
+}
+
 }  // namespace
 
 Eigen::Vector3d from_cube(CellType type, const Eigen::Vector3d& at) {
@@ -129,6 +155,7 @@ Eigen::Vector3d from_cube(CellType type, const Eigen::Vector3d& at) {
 }
 
 CubePolynomial jacobian_polynomial(CellType type, const Eigen::Ref<const Eigen::MatrixXd>& x) {
+  if (type == CellType::kHex8) return of_edges(x);
   const Sampling& s = sampling_of(type);
   const Tangents a = tangents(s.gradients[0], x), b = tangents(s.gradients[1], x),
                  c = tangents(s.gradients[2], x);

@@ -99,11 +99,8 @@ class Dialects(unittest.TestCase):
 
 # What is refused, with the way out.
 REFUSED = {
-    "cae_nonstructural_mass": "its mass: [[point_mass]] or a larger rho of the recipe",
-    "cae_bushing": "its connections: [[spring]] and [[equation]] of the recipe",
     "cae_contact_that_opens": "opens and slides, which is not linear; expected TIED",
     "cae_shell_stiffener": "1 elements S4R are shells or membranes beside the solids, which are not read yet; ignore",
-    "mapped_nodes": "keyword *NMAP is not supported; ignore = [\"*NMAP\"] skips it with its data lines: nodes then stay where",
 }
 
 

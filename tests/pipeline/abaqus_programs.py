@@ -119,6 +119,77 @@ DUMBBELLS = ("*NODE\n" + "".join(f"{n}, {x!r}, {y!r}, {z!r}\n" for n, (x, y, z) 
              "*NSET, NSET=HEAD\nTOP, " + ", ".join(str(n) for n, _ in SIX) + "\n*RIGID BODY, NSET=HEAD, REF NODE=900\n")
 ONE_MASS = bar.MASS + bar.BODIES["rigid_body"]
 
+# Two halves of the bar, held at both ends: each moves a node on the joint's axis, one 4 mm above the other. The axis is at 30
+# degrees in the plane x y; CalculiX gets the five equations of the hinge (ROT NODE: the translations are the rotations).
+HINGE_C, HINGE_S = math.cos(math.radians(30.0)), math.sin(math.radians(30.0))
+
+
+def cae_hinge():
+    ends = "*Node\n 1, 5., 5., 20.\n 2, 5., 5., 24.\n"
+    couplings = "".join(f"*Coupling, constraint name=C{k}, ref node={k}, surface={face}\n*Kinematic\n"
+                        for k, face in ((1, "Half-1.Upper"), (2, "Half-2.Bottom")))
+    wire = "*Element, type=CONN3D2, elset=Wire-1\n 3, 1, 2\n*Orientation, name=\"Datum csys-1\"\n" \
+           f"{HINGE_C!r}, {HINGE_S!r}, 0., {-HINGE_S!r}, {HINGE_C!r}, 0.\n1, 0.\n" \
+           "*Connector Section, elset=Wire-1\nHinge,\n\"Datum csys-1\",\n"
+    held = "*Nset, nset=Fixed, instance=Half-2, generate\n 37, 45, 1\n"
+    return cae_halves(held + ends + couplings + wire)
+
+
+def flat_halves():
+    lines = [line.split(",") for line in nodes(range(1, 46)).splitlines()]
+    upper = "".join(f"{int(n) + 100}, {x}, {y}, {float(z) + 20.0!r}\n" for n, x, y, z in lines)
+    return f"*NODE, NSET=NALL\n{nodes(range(1, 46))}{upper}*ELEMENT, TYPE=C3D8, ELSET=BAR\n{bar.cells(range(1, 17))}{bar.cells(range(1, 17), 100, 100)}"
+
+
+HINGE = (flat_halves() + "*NODE\n901, 5., 5., 20.\n902, 5., 5., 20.\n903, 5., 5., 24.\n904, 5., 5., 24.\n"
+         "*NSET, NSET=FOOT\n" + listed([*range(1, 10), *range(137, 146)]) + "*NSET, NSET=LOW\n" + listed(range(37, 46))
+         + "*NSET, NSET=HIGH\n" + listed(range(101, 110)) + STEEL + bar.SECTION
+         + "*RIGID BODY, NSET=LOW, REF NODE=901, ROT NODE=902\n*RIGID BODY, NSET=HIGH, REF NODE=903, ROT NODE=904\n"
+         "*EQUATION\n3\n903, 1, 1., 901, 1, -1., 902, 2, -4.\n3\n903, 2, 1., 901, 2, -1., 902, 1, 4.\n2\n903, 3, 1., 901, 3, -1.\n"
+         f"4\n904, 2, {HINGE_C!r}, 902, 2, {-HINGE_C!r}, 904, 1, {-HINGE_S!r}, 902, 1, {HINGE_S!r}\n2\n904, 3, 1., 902, 3, -1.\n"
+         + HELD + FREQUENCY)
+
+# Two wooden bars, the second turned about (50, 0, 0) by 70 degrees about (1, 1, 1), with axes of the material in the part, mass
+# on both and a spring between their tips.
+GRAIN = math.radians(40.0)
+
+
+def turned(x, about=(0.0, 0.0, 0.0)):
+    """Rodrigues' formula, of the position x from `about`."""
+    angle, axis = math.radians(70.0), [1 / math.sqrt(3.0)] * 3
+    x = [a - b for a, b in zip(x, about)]
+    across = [axis[1] * x[2] - axis[2] * x[1], axis[2] * x[0] - axis[0] * x[2], axis[0] * x[1] - axis[1] * x[0]]
+    along = sum(a * b for a, b in zip(axis, x)) * (1 - math.cos(angle))
+    return [math.cos(angle) * a + math.sin(angle) * b + along * c + d for a, b, c, d in zip(x, across, axis, about)]
+
+
+def cae_turned_twice():
+    part = cae_part(inside="*Orientation, name=Ori\n1., 0., 0., 0., 1., 0.\n3, 40.\n",
+                    section="*Solid Section, elset=Set-1, material=Steel, orientation=Ori\n,\n")
+    sets = "".join(f"*Nset, nset=Fixed, instance=Bar-{k}, generate\n 1, 9, 1\n*Elset, elset=Both, instance=Bar-{k}\n Set-1,\n" for k in (1, 2))
+    return (CAE_HEAD + part + "*Assembly, name=Assembly\n*Instance, name=Bar-1, part=Bar\n*End Instance\n"
+            "*Instance, name=Bar-2, part=Bar\n 50., 0., 0.\n 50., 0., 0., 51., 1., 1., 70.\n*End Instance\n" + sets
+            + "*Nonstructural Mass, elset=Both, units=TOTAL MASS\n4e-06,\n*Element, type=CONN3D2, elset=Wire-1\n1, Bar-1.77, Bar-2.77\n"
+            "*Connector Section, elset=Wire-1, behavior=K\nAxial,\n*End Assembly\n*Connector Behavior, name=K\n"
+            "*Connector Elasticity, component=1\n800.,\n" + CAE_WOOD + CAE_STEP)
+
+
+def flat_turned_twice():
+    def away(number):
+        x, y, z = bar.position(number)
+        return turned([x + 50.0, y, z], (50.0, 0.0, 0.0))
+
+    fibres = [math.cos(GRAIN), math.sin(GRAIN), 0.0], [-math.sin(GRAIN), math.cos(GRAIN), 0.0]
+    axes = {1: [*fibres[0], *fibres[1]], 2: [*turned(fibres[0]), *turned(fibres[1])]}
+    wood = WOOD.replace("5.E-10", "1.E-9")  # 4e-6 t on two bars of 4000 mm3
+    return ("*NODE, NSET=NALL\n" + nodes(range(1, 82)) + nodes(range(1, 82), 100, away) + "*ELEMENT, TYPE=C3D8, ELSET=B1\n" + bar.cells()
+            + "*ELEMENT, TYPE=C3D8, ELSET=B2\n" + bar.cells(shift=100, node_shift=100)
+            + "*NSET, NSET=FOOT\n" + listed([*range(1, 10), *range(101, 110)]) + wood
+            + "".join(f"*ORIENTATION, NAME=O{k}\n{', '.join(map(repr, at))}\n*SOLID SECTION, ELSET=B{k}, MATERIAL=STEEL, ORIENTATION=O{k}\n"
+                      for k, at in axes.items())
+            + "*ELEMENT, TYPE=SPRINGA, ELSET=K\n950, 77, 177\n*SPRING, ELSET=K\n\n800.\n" + HELD + FREQUENCY)
+
+
 SPRINGS = "".join(f"*ELEMENT, TYPE=SPRING1, ELSET=G{k}\n{900 + k}, {73 + k}\n*SPRING, ELSET=G{k}\n{k}\n{500.0 * k}\n" for k in (1, 2, 3))
 CAE_SPRINGS = "".join(f"*Spring, elset=\"Springs/Dashpots-{k}-spring\"\n{k}\n{500.0 * k}\n"
                       f"*Element, type=Spring1, elset=\"Springs/Dashpots-{k}-spring\"\n{k}, Bar-1.{73 + k}\n" for k in (1, 2, 3))
@@ -427,14 +498,22 @@ add("cae_included_mesh", A, {"a.inp": CAE_HEAD + "*Include, input=mesh/part.inp\
 add("cae_substructure", A, cae(CAE_STEP + SUBSTRUCTURE), BAR)
 add("cae_steady_state_after_frequencies", A, cae(CAE_STEP + LATER_STEPS), BAR)
 add("cae_nonstructural_mass", A, cae(part="*Nonstructural Mass, elset=Set-1, units=TOTAL MASS\n3.14e-05,\n"),
-    None)
+    plain(material=STEEL.replace("7.85E-9", "1.57E-8")))
 add("cae_distributing", A, cae(cae_static("*Cload\nRP, 1, 18.\nRP, 2, 9.\n"),
                                assembly=CAE_POINT.replace("45.", "40.") + "*Surface, type=NODE, name=Tip_CNS_, internal\nTip, 1.\n"
                                "*Coupling, constraint name=C, ref node=RP, surface=Tip_CNS_\n*Distributing, weighting method=UNIFORM\n"),
     plain(step=SHARED), U)
-add("cae_bushing", A, cae(assembly=CAE_POINT + "*Element, type=CONN3D2, elset=Bush\n7, 1, Bar-1.77\n"
+add("cae_bushing", A, cae(CAE_STEP.replace("Fixed, ENCASTRE\n", "Fixed, ENCASTRE\nRP, ENCASTRE\n"),
+                          assembly=CAE_POINT.replace("45.", "40.") + "*Element, type=CONN3D2, elset=Bush\n7, 1, Bar-1.77\n"
                           "*Connector Section, elset=Bush, behavior=K\nBushing,\n",
-                          model="*Connector Behavior, name=K\n*Connector Elasticity, component=1\n500.,\n"), None)
+                          model="*Connector Behavior, name=K\n*Connector Elasticity, component=1\n500.,\n*Connector Damping, component=1\n.1,\n"),
+    plain(model="*ELEMENT, TYPE=SPRING1, ELSET=G\n950, 77\n*SPRING, ELSET=G\n1\n500.\n"))
+add("cae_connector_beam", A, cae(assembly=CAE_POINT + cae_surface("Top", "C3D8", at_z("C3D8", 8)) + CAE_MASS + "*Node\n 2, 6., 4., 42.\n"
+                                 + CAE_KINEMATIC.replace("ref node=RP", "ref node=2")
+                                 + "*Element, type=CONN3D2, elset=Wire-1\n7, 2, 1\n*Connector Section, elset=Wire-1\nBeam,\n"),
+    plain(model=ONE_MASS))
+add("cae_hinge", A, cae_hinge(), HINGE)
+add("cae_turned_twice", A, cae_turned_twice(), flat_turned_twice())
 add("cae_contact_that_opens", A, cae_halves("*Contact Pair, interaction=IntProp-1, type=SURFACE TO SURFACE\nHalf-2.Bottom, Half-1.Upper\n")
     .replace("*End Assembly\n", "*End Assembly\n*Surface Interaction, name=IntProp-1\n1.,\n*Friction\n 0.2,\n"), None)
 add("cae_shell_stiffener", A, cae(part="*Element, type=S4R, elset=Rib\n101, 3, 83, 84, 12\n*Node\n83, 20., 0., 0.\n84, 20., 0., 5.\n"
@@ -495,4 +574,4 @@ add("op_new", B, by_hand(static("*CLOAD, OP=NEW\nTOP, 1, 2.\nTOP, 3, -1.\n*BOUND
 add("linear_mpc", B, by_hand(model="*MPC\nLINEAR, 74, 73, 75\n"),
     by_hand(model="*EQUATION\n" + "".join(f"3\n74, {k}, 1., 73, {k}, -.5, 75, {k}, -.5\n" for k in (1, 2, 3))))
 add("mapped_nodes", B, by_hand().replace("*ELEMENT,", "*NSET, NSET=ALL, GENERATE\n1, 81\n*NMAP, NSET=ALL, TYPE=RECTANGULAR\n"
-                                         "10., 20., 30., 11., 20., 30.\n10., 21., 30.\n1., 1., 1.\n*ELEMENT,", 1), None)
+                                         "10., 20., 30., 11., 21., 30.\n10., 21., 32.\n1., 1., 1.\n*ELEMENT,", 1), BAR)

@@ -35,8 +35,14 @@ class Sections {
     for_each_card(model_, {"DLOAD"}, [&](size_t use, const Card& card) {
       for (size_t i = 0; i < card.size(); ++i) {
         const Fields fields = card.line(i, model_.source);
-        if (folded(fields.text(1)) == "CENTRIF") split(use, fields);
+        if (folded(fields.text(1)) == "CENTRIF")
+          split(model_.sets.elements_or_all(fields, 0, use), fields.text(0), fields.origin());
       }
+    });
+    for_each_card(model_, {"NONSTRUCTURALMASS"}, [&](size_t use, const Card& card) {
+      const std::string& set = card.keyword().required("ELSET", model_.source);
+      split(model_.sets.elements(use, set, card.origin()), set_name(model_, use, set),
+            card.origin());
     });
     for (int32_t cell = 0; cell < model_.numbering.cells(); ++cell) add_formulation(cell);
     return std::move(region_);
@@ -84,17 +90,18 @@ class Sections {
     }
   }
 
-  // Only entire regions rotate: the part that a load rotates becomes a region of its own.
-  void split(size_t use, const Fields& fields) {
+  // Only entire regions rotate and have a density: the part of one that is among `elements`
+  // becomes a region of its own.
+  void split(const std::vector<int32_t>& elements, std::string_view set, Origin origin) {
     std::vector<bool> turns(region_.size(), false);
-    for (const int32_t element : model_.sets.elements_or_all(fields, 0, use)) {
+    for (const int32_t element : elements) {
       if (element < model_.numbering.cells()) turns[element] = true;
     }
     std::vector<bool> stays(model_.deck.regions.size(), false);
     for (size_t cell = 0; cell < region_.size(); ++cell) {
       if (!turns[cell] && region_[cell] != kNoRegion) stays[region_[cell]] = true;
     }
-    std::map<int32_t, int32_t> part;  // of a region that does not rotate entirely
+    std::map<int32_t, int32_t> part;  // of a region that is divided
     for (size_t cell = 0; cell < region_.size(); ++cell) {
       const int32_t parent = region_[cell];
       if (!turns[cell] || parent == kNoRegion || !stays[parent]) continue;
@@ -102,8 +109,8 @@ class Sections {
       if (is_new) {
         const Region region = model_.deck.regions[parent];
         const std::string name = model_.deck.mesh.regions[parent];
-        at->second = new_region(model_.numbering.main_use(),
-                                fmt::format("{}_{}", name, fields.text(0)), fields.origin());
+        at->second =
+            new_region(model_.numbering.main_use(), fmt::format("{}_{}", name, set), origin);
         model_.deck.regions.back() = region;
       }
       region_[cell] = at->second;

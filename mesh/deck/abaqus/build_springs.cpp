@@ -32,8 +32,9 @@ double slope_of(const Card& card, size_t first, const Source& source) {
   });
   if (!straight || elongation == 0.0) {
     source.fail(card.origin(),
-                "*SPRING, NONLINEAR: its forces are not on one line through 0, expected a "
-                "linear spring: clatter's parts are linear");
+                fmt::format("{}, NONLINEAR: its forces are not on one line through 0, expected a "
+                            "linear spring: clatter's parts are linear",
+                            card.keyword().name));
   }
   return slope;
 }
@@ -59,21 +60,32 @@ Property property_of(const Card& card, const std::string& type, const Source& so
   } else if (card.size() > 0 && card.line(0, source).blank(0)) {
     first = 1;
   }
-  if (card.keyword().has("NONLINEAR")) {
-    property.stiffness = slope_of(card, first, source);
-  } else {
-    if (card.size() != first + 1) {
-      source.fail(card.origin(), fmt::format("*SPRING: found {} lines of stiffness, expected one",
-                                             card.size() - std::min(card.size(), first)));
-    }
-    property.stiffness = card.line(first, source).number(0, "stiffness");
-  }
-  if (!(property.stiffness > 0.0)) {
-    source.fail(card.origin(), fmt::format("*SPRING: found a stiffness of {}, expected more than 0",
-                                           property.stiffness));
-  }
+  property.stiffness = stiffness_of(card, first, source);
   return property;
 }
+
+}  // namespace
+
+double stiffness_of(const Card& card, size_t first, const Source& source) {
+  double stiffness = 0.0;
+  if (card.keyword().has("NONLINEAR")) {
+    stiffness = slope_of(card, first, source);
+  } else {
+    if (card.size() != first + 1) {
+      source.fail(card.origin(),
+                  fmt::format("{}: found {} lines of stiffness, expected one", card.keyword().name,
+                              card.size() - std::min(card.size(), first)));
+    }
+    stiffness = card.line(first, source).number(0, "stiffness");
+  }
+  if (!(stiffness > 0.0)) {
+    source.fail(card.origin(), fmt::format("{}: found a stiffness of {}, expected more than 0",
+                                           card.keyword().name, stiffness));
+  }
+  return stiffness;
+}
+
+namespace {
 
 // DoF `direction` of a node, which CalculiX may store as a translation of a rotation node.
 Equation::Term end_of(Model& model, const PointElement& element, int32_t row, int direction,

@@ -28,6 +28,8 @@ constexpr std::array kRoles = {
     KeywordRole{"NGEN", Role::kGenerate, "nodes on a line"},
     KeywordRole{"NFILL", Role::kGenerate, "nodes between two sets"},
     KeywordRole{"NCOPY", Role::kGenerate, "copies of nodes"},
+    KeywordRole{"NMAP", Role::kGenerate,
+                "nodes of rectangular, skew, cylindrical or spherical coordinates"},
     KeywordRole{"ELGEN", Role::kGenerate, "rows of elements"},
     KeywordRole{"ELCOPY", Role::kGenerate, "copies of elements"},
     KeywordRole{"SYSTEM", Role::kSystem, "coordinate system of the nodes that follow"},
@@ -83,6 +85,11 @@ constexpr std::array kRoles = {
     KeywordRole{"KINEMATIC COUPLING", Role::kModel, "rigid coupling"},
     KeywordRole{"AMPLITUDE", Role::kModel, "taken at the end of a static step"},
     KeywordRole{"BOUNDARY", Role::kModel, "supports, prescribed displacements"},
+    KeywordRole{"CONNECTOR BEHAVIOR", Role::kModel, "stiffness of connectors"},
+    KeywordRole{"CONNECTOR ELASTICITY", Role::kModel,
+                "linear stiffness, of components or coupled; rigid components"},
+    KeywordRole{"CONNECTOR SECTION", Role::kModel,
+                "rigid components become couplings and equations, elastic ones springs"},
     KeywordRole{"DISTRIBUTING COUPLING", Role::kModel, "distributing coupling"},
     KeywordRole{"EQUATION", Role::kModel, "equation"},
     KeywordRole{"INITIAL CONDITIONS", Role::kModel, "reference temperature"},
@@ -90,6 +97,7 @@ constexpr std::array kRoles = {
     KeywordRole{
         "MPC", Role::kModel,
         "PIN, TIE, BEAM, LINEAR, PLANE, STRAIGHT, MEANROT to first order in the displacements"},
+    KeywordRole{"NONSTRUCTURAL MASS", Role::kModel, "a larger density of solids"},
     KeywordRole{"ORIENTATION", Role::kModel, "coordinate system of materials"},
     KeywordRole{"PRE-TENSION SECTION", Role::kModel, "bolt, cut through its shank of solids"},
     KeywordRole{"RETAINED NODAL DOFS", Role::kModel, "boundary DoFs of a condensation"},
@@ -129,6 +137,7 @@ constexpr std::array kRoles = {
     KeywordRole{"VISCO", Role::kProcedure, kNotLinear},
     KeywordRole{"BASE MOTION", Role::kHarmless, "of a dynamic step"},
     KeywordRole{"CHANGE FRICTION", Role::kHarmless, kNonlinear},
+    KeywordRole{"CONNECTOR DAMPING", Role::kHarmless, kDamping},
     KeywordRole{"CONTACT CONTROLS", Role::kHarmless, kNonlinear},
     KeywordRole{"CONTACT DAMPING", Role::kHarmless, kDamping},
     KeywordRole{"CONTACT FILE", Role::kHarmless, kOutput},
@@ -205,14 +214,13 @@ bool is(std::string_view key, std::string_view name) {
 
 std::string advice_of(std::string_view key) {
   if (role_of(key) == Role::kProcedure) return "";
-  if (key == "NMAP" || key == "IMPERFECTION") return ": nodes then stay where they were before it";
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kLosses = {
+  if (key == "IMPERFECTION") return ": nodes then stay where they were before it";
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kLosses = {
       {{"CONNECTOR", "its connections: [[spring]] and [[equation]]"},
        {"FASTENER", "its connections: [[spring]] and [[coupling]]"},
        {"GAP", "the stiffness of its gaps: [[spring]]"},
        {"JOINT", "its stiffness: [[spring]]"},
        {"GASKET", "its stiffness: [[spring]] or [[tie]]"},
-       {"NONSTRUCTURALMASS", "its mass: [[point_mass]] or a larger rho"},
        {"EMBEDDEDELEMENT", "its connection: [[coupling]] or [[tie]]"},
        {"SHELLTOSOLIDCOUPLING", "its connection: [[coupling]] or [[tie]]"},
        {"MATRIX", "its stiffness and mass: [[spring]] and [[point_mass]]"},

@@ -35,6 +35,7 @@ void generate(const Card& card, Scope& scope, const LocalSystem& system, const S
               Ignore& ignore) {
   const std::string& key = card.keyword().key;
   if (key == "ELGEN" || key == "ELCOPY") return generate_elements(card, scope, source, ignore);
+  if (key == "NMAP") return map_nodes(card, scope, source, ignore);
   generate_nodes(card, scope, system, source, ignore);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// *NGEN, *NFILL, *NCOPY, *ELGEN, *ELCOPY: nodes and elements that are generated from others.
+// *NGEN, *NFILL, *NCOPY, *ELGEN, *ELCOPY: nodes and elements that are generated from others. *NMAP:
+// nodes that are moved.
 #include "mesh/deck/abaqus/local_system.hpp"
 #include "mesh/deck/abaqus/raw_deck.hpp"
 

@@ -36,6 +36,8 @@ class Generator {
 /// *NGEN, *NFILL, *NCOPY.
 void generate_nodes(const Card& card, Scope& scope, const LocalSystem& system, const Source& source,
                     Ignore& ignore);
+/// *NMAP; InputError for mappings that are not linear, cylindrical or spherical.
+void map_nodes(const Card& card, Scope& scope, const Source& source, Ignore& ignore);
 /// *ELGEN, *ELCOPY.
 void generate_elements(const Card& card, Scope& scope, const Source& source, Ignore& ignore);
 

@@ -68,8 +68,11 @@ void build_materials(Model& model);
 void build_systems(Model& model);
 /// Cells, nodes, regions. Nodes without cells get no node index yet.
 void build_mesh(Model& model);
-/// *SOLID SECTION -> regions of the mesh and of the deck, Model::region_of_cell.
+/// *SOLID SECTION -> regions of the mesh and of the deck, Model::region_of_cell. A part of a region
+/// that rotates or has *NONSTRUCTURAL MASS becomes a region of its own.
 void build_regions(Model& model);
+/// *NONSTRUCTURAL MASS, after build_mesh() -> larger densities.
+void build_nonstructural_mass(Model& model);
 /// Elements of two dimensions that are faces of solids -> Mesh::surfaces, lines of their nodes ->
 /// node sets; others with a section are refused.
 void build_thin(Model& model);
@@ -103,6 +106,12 @@ std::vector<PointElement> point_elements(Model& model, size_t use, const Card& c
                                          std::string_view type);
 /// *SPRING and *DASHPOT with their elements.
 void build_springs(Model& model);
+/// The stiffness in the data lines from `first` on: one number, or with NONLINEAR a straight table
+/// of forces; InputError for others.
+double stiffness_of(const Card& card, size_t first, const Source& source);
+/// CONN3D2 with *CONNECTOR SECTION and *CONNECTOR BEHAVIOR -> rigid couplings, equations, springs;
+/// after build_couplings() and build_distributing().
+void build_connectors(Model& model);
 /// Dependents of rigid bodies, once all points are known.
 void finish_couplings(Model& model);
 /// *EQUATION and *MPC.

@@ -34,7 +34,7 @@ struct CellTable {
   std::vector<int32_t> nodes;
 };
 
-/// Elements of one node (MASS, ROTARYI, DCOUP3D, SPRING1, DASHPOT1) or two (SPRINGA, ...).
+/// Elements of one node (MASS, ROTARYI, DCOUP3D, SPRING1, DASHPOT1) or two (SPRINGA, CONN3D2, ...).
 struct PointElement {
   std::string type;
   int32_t id = 0;

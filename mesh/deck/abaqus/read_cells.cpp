@@ -8,19 +8,21 @@
 #include <optional>
 
 #include "mesh/deck/abaqus/cells.hpp"
+#include "mesh/deck/abaqus/connector_kinds.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, int>, 9> kPointTypes = {{{"MASS", 1},
-                                                                          {"ROTARYI", 1},
-                                                                          {"DCOUP3D", 1},
-                                                                          {"SPRING1", 1},
-                                                                          {"SPRING2", 2},
-                                                                          {"SPRINGA", 2},
-                                                                          {"DASHPOT1", 1},
-                                                                          {"DASHPOT2", 2},
-                                                                          {"DASHPOTA", 2}}};
+constexpr std::array<std::pair<std::string_view, int>, 10> kPointTypes = {{{"MASS", 1},
+                                                                           {"ROTARYI", 1},
+                                                                           {"DCOUP3D", 1},
+                                                                           {"SPRING1", 1},
+                                                                           {"SPRING2", 2},
+                                                                           {"SPRINGA", 2},
+                                                                           {"DASHPOT1", 1},
+                                                                           {"DASHPOT2", 2},
+                                                                           {"DASHPOTA", 2},
+                                                                           {kConnector, 2}}};
 
 // Number of nodes of elements with one or two; 0 for other types.
 int point_nodes(std::string_view type) {
@@ -122,6 +124,10 @@ class ElementWalk {
           if (--missing == 0) origin = lines_.origin();
         }
       }
+      if (missing == 1 && type_ == kConnector) {  // the second node is the ground
+        missing = 0;
+        origin = lines_.origin();
+      }
     }
     if (missing > 0) {
       lines_.source().fail(origin, fmt::format("found {} nodes of an element {}, expected {}",
@@ -177,6 +183,7 @@ Lines::Kind read_points(Lines& lines, const std::string& type, Scope& scope, Set
           },
           [&](std::string_view node) {
             PointElement& point = scope.points.back();
+            if (node.empty() && type == kConnector) return;  // the ground
             const bool first = point.node == 0;
             point.instance[first ? 0 : 1] = split_instance(node, scope);
             (first ? point.node : point.second) = node_of(node, lines);

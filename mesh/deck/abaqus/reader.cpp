@@ -26,6 +26,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   build_materials(model);
   build_systems(model);
   refusals.require([&] { build_mesh(model); });
+  build_nonstructural_mass(model);
   refusals.attempt([&] { build_thin(model); });
   build_surfaces(model);
   build_bolts(model);
@@ -37,6 +38,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   build_contacts(model);
   build_masses(model);
   build_springs(model);
+  build_connectors(model);
   build_equations(model);
   finish_couplings(model);
   build_steps(model);

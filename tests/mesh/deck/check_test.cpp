@@ -128,21 +128,21 @@ TEST(Check, AFoldedCellIsRefusedAsInReading) {
 TEST(Check, KeywordsAndElementTypesOfAnAbaqusDeckAreListed) {
   const std::string cube =
       "*HEADING\na\n*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
-      "*ELEMENT,TYPE=C3D8,ELSET=E\n1,1,2,3,4,5,6,7,8\n*ELEMENT,TYPE=CONN3D2\n2,1,2\n3,5,6\n"
+      "*ELEMENT,TYPE=C3D8,ELSET=E\n1,1,2,3,4,5,6,7,8\n*ELEMENT,TYPE=CONN2D2\n2,1,2\n3,5,6\n"
       "*MATERIAL,NAME=M\n*ELASTIC\n1.,.3\n*SOLID SECTION,ELSET=E,MATERIAL=M\n"
       "*GASKET SECTION,ELSET=S\n1.\n*STEP\n*STATIC\n*BOUNDARY\n1,1,3\n*END STEP\n"
       "*STEP\n*DYNAMIC\n*CLOAD\n1,1,1.\n*END STEP\n";
   const CheckedDeck refused = check("c.inp", cube);
   EXPECT_EQ(refused.refused, 2);
   EXPECT_EQ(row(refused, "C3D8").fate, "read");
-  EXPECT_EQ(row(refused, "CONN3D2").count, 2);
-  EXPECT_THAT(row(refused, "CONN3D2").remark, HasSubstr("ignore = [\"CONN3D2\"]"));
+  EXPECT_EQ(row(refused, "CONN2D2").count, 2);
+  EXPECT_THAT(row(refused, "CONN2D2").remark, HasSubstr("ignore = [\"CONN2D2\"]"));
   EXPECT_THAT(row(refused, "*GASKET SECTION").remark, HasSubstr("its stiffness: [[spring]]"));
   EXPECT_EQ(row(refused, "*HEADING").fate, "passed over");
 
-  const CheckedDeck read = check("c.inp", cube, {"CONN3D2", "*GASKET SECTION"});
+  const CheckedDeck read = check("c.inp", cube, {"CONN2D2", "*GASKET SECTION"});
   EXPECT_EQ(read.refused, 0) << read.rows.back().remark;
-  EXPECT_EQ(row(read, "CONN3D2").fate, "ignored");
+  EXPECT_EQ(row(read, "CONN2D2").fate, "ignored");
   EXPECT_EQ(row(read, "*STEP").count, 2);
   EXPECT_EQ(row(read, "*DYNAMIC").fate, "passed over");  // the step is left out, which a note says
   EXPECT_EQ(read.rows.back().fate, "noted");

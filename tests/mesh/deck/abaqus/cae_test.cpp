@@ -122,9 +122,9 @@ TEST(AbaqusCae, GravityWithoutASetIsThatOfTheModel) {
 }
 
 TEST(AbaqusCae, KeywordsThatDoChangeThemAreRefusedWithWhatReplacesThem) {
-  EXPECT_THAT(refusal(kModel + "*NONSTRUCTURAL MASS, ELSET=EALL, UNITS=TOTAL MASS\n1.\n"),
-              HasSubstr("and its mass: [[point_mass]] or a larger rho of the recipe replace it"));
-  EXPECT_THAT(refusal(kModel + "*NMAP, NSET=TOP\n0, 0, 0, 1, 0, 0\n"),
+  EXPECT_THAT(refusal(kModel + "*CONNECTOR LOCK, COMPONENT=1\n1.\n"),
+              HasSubstr("its connections: [[spring]] and [[equation]] of the recipe replace it"));
+  EXPECT_THAT(refusal(kModel + "*IMPERFECTION, FILE=a, STEP=1\n1, .1\n"),
               HasSubstr("with its data lines: nodes then stay where they were before it"));
   EXPECT_THAT(refusal(kModel + "*ODD THING\n"),
               HasSubstr("and what it adds to stiffness, mass, supports or couplings: [[spring]]"));

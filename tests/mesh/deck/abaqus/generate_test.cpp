@@ -111,6 +111,33 @@ TEST(AbaqusGenerate, AxesOfSystemAndCurvedCoordinates) {
             kExact);
 }
 
+// The rows of Abaqus' figure of *NMAP, by hand.
+TEST(AbaqusGenerate, MappedNodesHaveTheBasicCoordinatesOfTheirOwnOnes) {
+  const std::string one = "*NODE, NSET=A\n101, 2, 90, 5\n*NMAP, NSET=A, TYPE=";
+  const auto expect = [&](const std::string& cards, const Eigen::Vector3d& x) {
+    EXPECT_LT((made(one + cards, 101) - x).norm(), 1e-13) << cards;
+  };
+  expect("RECTANGULAR\n10, 20, 30\n", {12, 110, 35});
+  // x' = y and y' = -x from (1, 0, 0), the second coordinate a hundredth.
+  expect("RECTANGULAR\n1, 0, 0, 1, 7, 0\n-3, 4, 0\n, .01, 1.\n", {1 - .9, 2, 5});
+  // The axis along x from (1, 0, 0), the zero angle along y: at 90 degrees z.
+  expect("CYLINDRICAL\n1, 0, 0, 4, 0, 0\n8, 3, 0\n", {6, 0, 2});
+  // At half the angle and three times the radius.
+  expect("CYLINDRICAL\n1, 0, 0, 4, 0, 0\n8, 3, 0\n3., .5\n",
+         {6, 6 * std::sqrt(.5), 6 * std::sqrt(.5)});
+  // The polar axis along x, the zero angle along y; 5 degrees out of the equator's plane, times 6.
+  expect("SPHERICAL\n0, 0, 0, 1, 0, 0\n0, 1, 0\n1., 1., 6.\n", {1, 0, std::sqrt(3.0)});
+  // Axes along x, x + y and z + y.
+  expect("DIAMOND\n0, 0, 0, 1, 0, 0\n1, 1, 0, 0, 1, 1\n, .1\n",
+         {2 + 9 * std::sqrt(.5), 14 * std::sqrt(.5), 5 * std::sqrt(.5)});
+  EXPECT_THAT(refusal(kCube + "*NMAP, NSET=NALL, TYPE=BLENDED\n1, 0, 0, 0\n"),
+              HasSubstr("deck.inp:14: *NMAP: TYPE=BLENDED is not supported, expected RECTANGULAR"));
+  EXPECT_THAT(refusal(kCube + "*NMAP, NSET=NALL, TYPE=CYLINDRICAL\n0, 0, 0, 1, 0, 0\n2, 0, 0\n"),
+              HasSubstr("its points lie on a line"));
+  EXPECT_THAT(refusal(kCube + "*NMAP, NSET=NO, TYPE=RECTANGULAR\n1, 0, 0\n"),
+              HasSubstr("found no set 'NO'"));
+}
+
 TEST(AbaqusGenerate, ParametersAreNumbersByName) {
   const std::string cards =
       "*PARAMETER\n# of the part\nwide = 2.5\nn = 3\nall = (wide + 0.5)*n - 2**2/sqrt(16.)  # 8\n"

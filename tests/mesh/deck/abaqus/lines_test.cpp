@@ -60,8 +60,8 @@ TEST(AbaqusLines, RefusalsNameFileLineAndWhatWasFound) {
             "deck.inp:24: keyword *GASKET SECTION is not supported; ignore = [\"*GASKET SECTION\"] "
             "skips it with its data lines and its stiffness: [[spring]] or [[tie]] of the recipe "
             "replace it");
-  EXPECT_NE(refusal(kCubeNodes + "*ELEMENT, TYPE=CONN3D2\n1,1,2\n")
-                .find("deck.inp:12: element type CONN3D2 is not supported; ignore = [\"CONN3D2\"]"),
+  EXPECT_NE(refusal(kCubeNodes + "*ELEMENT, TYPE=CONN2D2\n1,1,2\n")
+                .find("deck.inp:12: element type CONN2D2 is not supported; ignore = [\"CONN2D2\"]"),
             std::string::npos);
   EXPECT_NE(refusal(kCubeNodes + "*ELEMENT, TYPE=S4\n1,1,2,3,4\n").find("1 S4"), std::string::npos);
   EXPECT_NE(refusal(kModel + "*BOUNDARY, SUBMODEL\n1, 1\n").find("the parameter SUBMODEL"),

@@ -93,13 +93,13 @@ TEST(AbaqusRefusals, ConsequencesOfARefusalAreNotReported) {
   // type, are not refused again.
   const std::string said =
       refusal(kCube +
-              "*ELEMENT, TYPE=CONN3D2, ELSET=BEAMS\n50, 1, 2\n"
+              "*ELEMENT, TYPE=CONN2D2, ELSET=BEAMS\n50, 1, 2\n"
               "*MATERIAL, NAME=Steel\n*ELASTIC, TYPE=ODD\n1, 2\n"
               "*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL\n*ELSET, ELSET=BOTH\n1, 50\n"
               "*SURFACE, NAME=S\n1, S9\n*SURFACE, NAME=T\n1, S2\n*TIE, NAME=X\nS, T\n"
               "*STEP\n*STATIC\n*DLOAD\nBOTH, GRAV, 1., 0, 0, 1\n*END STEP\n");
   EXPECT_EQ(lines_in(said), 4) << said;
-  EXPECT_THAT(said, HasSubstr("deck.inp:14: element type CONN3D2 is not supported"));
+  EXPECT_THAT(said, HasSubstr("deck.inp:14: element type CONN2D2 is not supported"));
   EXPECT_THAT(said, HasSubstr("deck.inp:17: *ELASTIC: found TYPE=ODD"));
   EXPECT_THAT(said, HasSubstr("deck.inp:23: found face S9"));
 }
