@@ -94,7 +94,8 @@ const Keys<Coupling>& coupling_keys() {
         key.choice("kind", coupling.kind, {"node", "bearing", "mount"}, "kind of its set");
         key.value(
                "point", coupling, "three coordinates or a name",
-               "position of the reference node, or the name of a [[point]] that is it; the "
+               "position of the reference node [length_unit], or the name of a [[point]] that is "
+               "it; the "
                "surface's centroid without it",
                [](const Config& table, const std::string& name, Coupling& c) {
                  if (!table.is_list(name))
@@ -109,7 +110,8 @@ const Keys<Coupling>& coupling_keys() {
                  return fmt::format("[{}]", fmt::join(at, ", "));
                })
             .types({keys::Type::kText, keys::Type::kNumbers})
-            .in_length_unit();
+            .in_length_unit()
+            .shown_in("");
         key.choice("type", coupling.rigid, {{"distributing", false}, {"rigid", true}},
                    "whether the reference follows a surface or nodes, or these follow it");
         member_rows(key, coupling.members);

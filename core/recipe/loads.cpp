@@ -96,6 +96,7 @@ const Keys<Load>& load_keys() {
            })
         .types({keys::Type::kNumber})
         .in_length_unit()
+        .shown_in("")
         .needs("kind", {"displacement", "temperature"})
         .required_with("kind", "displacement");
     key.value(
