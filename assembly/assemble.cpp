@@ -38,7 +38,7 @@ BuiltModel make_model(const std::filesystem::path& mesh_path, const Config& conf
     inputs.push_back(mesh_path);
   }
   if (const auto table = config.find_table("matrices")) {
-    const MatrixFiles files = matrix_files_keys().read(*table);
+    const MatrixFiles files = recipe::matrix_files_keys().read(*table);
     config.finish();
     if (mesh.has_value() != files.dofs.empty())
       throw InputError(fmt::format("{}: [matrices]: {}", config.where(),

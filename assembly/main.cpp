@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
   line.output("-o,--output", a.output, "the model to write (.fe.h5)", true);
   line.blas();
   line.memory_limit("a temperature field ([[heat]]) is refused when it cannot be");
-  clatter::keys::add_keys_command(line, {&clatter::assembly::recipe_table()});
+  clatter::keys::add_keys_command(line, {&clatter::recipe::file_keys().table()});
   line.action([&a](const clatter::CommonOptions& common) { assemble_part(a, common); });
   return line.run(argc, argv);
 }

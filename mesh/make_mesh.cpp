@@ -16,7 +16,7 @@
 #include "mesh/deck/import.hpp"
 #include "mesh/deck/msh/reader.hpp"
 #include "mesh/deck/other_formats.hpp"
-#include "mesh/deck/recipe/text.hpp"
+#include "mesh/deck/recipe/recipe.hpp"
 #include "mesh/geometry/bare_cad.hpp"
 #include "mesh/geometry/cad_unit.hpp"
 #include "mesh/part/part_file.hpp"
@@ -72,7 +72,7 @@ NewMesh read_mesh_of_deck(const std::filesystem::path& source, const UnitSystem&
   if (!found.passed.empty()) say(fmt::format("{}: {}", source.string(), found.passed));
   found.mesh.name = name;
   NewMesh out;
-  out.recipe = deck::recipe_text(found);
+  out.recipe = deck::recipe_of(found);
   out.mesh = std::move(found.mesh);
   check_structure(out.mesh, source.string());
   out.quality = measure_quality(out.mesh);

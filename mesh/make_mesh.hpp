@@ -2,6 +2,7 @@
 #pragma once
 // The stage's main call: from a description, CAD or a deck to a proved mesh.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "core/base/child_process.hpp"
 #include "core/base/json_line.hpp"
 #include "core/mesh/mesh.hpp"
+#include "mesh/deck/recipe/recipe.hpp"
 #include "mesh/repair/mesh_certificate.hpp"
 #include "mesh/repair/quality.hpp"
 
@@ -27,15 +29,15 @@ struct MeshRequest {
   ChildLimits limits;               // of the child processes that run gmsh
 };
 
-/// A mesh and the texts of the other files to write.
+/// A mesh and what the other files to write contain.
 struct NewMesh {
   Mesh mesh;
   QualityReport quality;
   MeshCertificate certificate;
   Provenance provenance;
-  std::string recipe;       // fe.toml of a deck
-  std::string cad;          // of the geometry, if requested
-  std::string description;  // mesh.toml of a CAD file without one
+  std::optional<deck::Recipe> recipe;  // fe.toml of a deck
+  std::string cad;                     // of the geometry, if requested
+  std::string description;             // mesh.toml of a CAD file without one
 };
 
 /// Meshes a geometry by gmsh, or reads the cells of a deck, proves every cell valid and measures

@@ -60,7 +60,7 @@ void write_new_mesh(const MeshArguments& a, const CommonOptions& common) {
   StepClock clock;
   const NewMesh made = make_mesh(request, clock);
   for (const std::string& line : describe(made)) print_result(line);
-  if (!a.recipe.empty() && made.recipe.empty())
+  if (!a.recipe.empty() && !made.recipe)
     throw InputError(fmt::format("{}: --recipe needs a deck", request.input.string()));
   write_artefact(request.output, made.provenance, clock, common, [&](H5File& file) {
     write_mesh(file, made.mesh);
@@ -68,7 +68,7 @@ void write_new_mesh(const MeshArguments& a, const CommonOptions& common) {
     if (a.parts > 0) write_partition(file, partition_cells(made.mesh, a.parts));
     write_certificate(file, made.certificate);
   });
-  if (!a.recipe.empty()) write_whole_file(a.recipe, keys::schema_line("fe") + made.recipe);
+  if (!a.recipe.empty()) write_whole_file(a.recipe, keys::schema_line("fe") + made.recipe->text());
   if (!made.cad.empty()) write_whole_file(request.step, made.cad);
   if (!made.description.empty())
     keep_description(description_beside(request.output), made.description);

@@ -61,7 +61,7 @@ Eigen::Vector3d reference_position(const CouplingSpec& spec, const std::vector<M
 }
 
 int32_t point_named(const PartData& part, const std::string& name) {
-  return selected({"", "", name, ""}, part.mesh, part.numbers)[0].point();
+  return selected({.point = name}, part.mesh, part.numbers)[0].point();
 }
 
 ReferenceDofs point_dofs(const DofNumbers& numbers, int32_t point) {

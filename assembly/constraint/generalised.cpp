@@ -86,7 +86,7 @@ ObliqueSupports hold_oblique(const PartData& part, const std::vector<HeldGroup>&
     std::vector<Functional> rows;
     for (const HeldDof& held : group.held) rows.push_back(held_functional(held, part.numbers));
     const SupportSpec& spec = part.recipe.supports[group.held[0].support];
-    const int32_t first = eliminator.hold(rows, spec.selection.where + ": " + group.held[0].label);
+    const int32_t first = eliminator.hold(rows, spec.where + ": " + group.held[0].label);
     for (size_t k = 0; k < group.held.size(); ++k)
       oblique.held[first + static_cast<int32_t>(k)] = group.held[k];
     append_motions(rows, nodal_rigid, oblique.motions);

@@ -34,7 +34,7 @@ void depend(Dependence one, int relation, ConstraintGraph& graph, Dependences& a
 std::vector<HeldGroup> gather_supports(const PartData& part, ConstraintGraph& graph) {
   std::vector<int> relations;
   for (const SupportSpec& spec : part.recipe.supports)
-    relations.push_back(graph.add_relation(spec.selection.where));
+    relations.push_back(graph.add_relation(spec.where));
   std::vector<HeldGroup> supports = plan_supports(part.recipe, part.mesh, part.numbers);
   for (const HeldGroup& group : supports)
     for (const HeldDof& held : group.held)

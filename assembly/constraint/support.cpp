@@ -34,7 +34,7 @@ std::string owner_name(NodeOrPoint owner, const mesh::Mesh& mesh, const DofNumbe
 
 }  // namespace
 
-std::vector<NodeOrPoint> selected(const Selection& selection, const mesh::Mesh& mesh,
+std::vector<NodeOrPoint> selected(const recipe::Selection& selection, const mesh::Mesh& mesh,
                                   const DofNumbers& numbers) {
   std::vector<NodeOrPoint> owners;
   if (!selection.point.empty()) {

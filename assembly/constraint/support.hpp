@@ -35,7 +35,7 @@ std::vector<HeldGroup> plan_supports(const Recipe& recipe, const mesh::Mesh& mes
                                      const DofNumbers& numbers);
 
 /// The nodes or the point of a selection.
-std::vector<NodeOrPoint> selected(const Selection& selection, const mesh::Mesh& mesh,
+std::vector<NodeOrPoint> selected(const recipe::Selection& selection, const mesh::Mesh& mesh,
                                   const DofNumbers& numbers);
 
 /// The displacement along (rotation about) the direction, in terms of DoF ids.

@@ -2,17 +2,16 @@
 #pragma once
 // Numbers (ids) of the DoFs before anything is eliminated: nodes first, then reference points.
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "core/base/matrix.hpp"
+#include "core/fe/axes.hpp"
 
 namespace clatter::assembly {
 
-/// Names of DoFs: displacements along x, y, z and rotations about them.
-inline constexpr std::array<const char*, 6> kDofNames = {"x", "y", "z", "rx", "ry", "rz"};
+using fe::kDofNames;
 
 /// A reference point with six DoFs. One on a mesh node shares the node's displacements.
 struct ReferencePoint {

@@ -2,7 +2,7 @@
 #pragma once
 // Models from matrices that other programs assembled.
 #include "assembly/model/build.hpp"
-#include "assembly/recipe/matrix_files.hpp"
+#include "assembly/recipe/recipe.hpp"
 #include "core/mesh/mesh.hpp"
 
 namespace clatter::assembly {

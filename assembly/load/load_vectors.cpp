@@ -82,10 +82,10 @@ Eigen::VectorXd rotation_force(const PartData& part, const LoadSpec& load) {
 /// Temperatures at the nodes above the stress-free state [K].
 Eigen::VectorXd temperature_rise(const mesh::Mesh& mesh, const LoadSpec& load,
                                  const HeatFields& heat) {
-  if (load.rise.size() > 0) return load.rise;
-  if (!load.heat.empty()) return heat.at(load.heat).temperature.array() - load.value;
-  if (load.field.empty()) return Eigen::VectorXd::Constant(mesh.nodes.rows(), load.value);
-  return mesh.fields.at(load.field).col(0).array() - load.value;
+  if (load.node_rises.size() > 0) return load.node_rises;
+  if (!load.heat.empty()) return heat.at(load.heat).temperature.array() - load.amount;
+  if (load.field.empty()) return Eigen::VectorXd::Constant(mesh.nodes.rows(), load.amount);
+  return mesh.fields.at(load.field).col(0).array() - load.amount;
 }
 
 /// Force and moment on a point.
@@ -103,23 +103,23 @@ Eigen::VectorXd nodal_forces(const PartData& part, const LoadSpec& load, const L
   const Eigen::Index n_nodes = part.mesh.nodes.rows();
   switch (load.kind) {
     case LoadSpec::Kind::kPressure:
-      if (load.pressure.size() > 0)
-        return -integrate_pressure(part.mesh.nodes, part.mesh.surface(load.surface), load.pressure)
+      if (load.node_pressures.size() > 0)
+        return -integrate_pressure(part.mesh.nodes, part.mesh.surface(load.selection.surface),
+                                   load.node_pressures)
                     .reshaped<Eigen::RowMajor>();
-      return pressure_load(n_nodes, part.surfaces.at(load.surface));
+      return pressure_load(n_nodes, part.surfaces.at(load.selection.surface));
     case LoadSpec::Kind::kResultant:
-      return resultant_load(n_nodes, part.surfaces.at(load.surface), load.force);
+      return resultant_load(n_nodes, part.surfaces.at(load.selection.surface), load.force);
     case LoadSpec::Kind::kNodal: {
       const RowMatrix& field = part.mesh.fields.at(load.field);
-      return load.value * Eigen::Map<const Eigen::VectorXd>(field.data(), field.size());
+      return load.amount * Eigen::Map<const Eigen::VectorXd>(field.data(), field.size());
     }
-    case LoadSpec::Kind::kAcceleration:
+    case LoadSpec::Kind::kAcceleration:  // of a field
       return inputs.of_fields.at(load.name);
     case LoadSpec::Kind::kTemperature:
       return thermal_load(part.mesh, part.recipe.materials,
                           temperature_rise(part.mesh, load, inputs.heat));
     case LoadSpec::Kind::kForce:
-    case LoadSpec::Kind::kGravity:
     case LoadSpec::Kind::kCentrifugal:
     case LoadSpec::Kind::kDisplacement:
       break;
@@ -129,7 +129,7 @@ Eigen::VectorXd nodal_forces(const PartData& part, const LoadSpec& load, const L
 
 /// Forces on nodes and points (n_dofs), without those on sets.
 Eigen::VectorXd forces_of(const PartData& part, const LoadSpec& load, const LoadInputs& inputs) {
-  if (load.kind == LoadSpec::Kind::kGravity) return body_force(part, inputs.momentum, load.force);
+  if (load.is_uniform_acceleration()) return body_force(part, inputs.momentum, load.force);
   if (load.kind == LoadSpec::Kind::kCentrifugal) return rotation_force(part, load);
   if (load.kind == LoadSpec::Kind::kForce)
     if (const int32_t point = find_point(part.recipe, load.set); point >= 0)
@@ -157,7 +157,7 @@ Eigen::VectorXd with_set_forces(Eigen::VectorXd f, const Recipe& recipe, const L
       f += set_load(f.size(), set, force.head<3>(), force.tail<3>(), load.where);
     }
   }
-  if (load.kind != LoadSpec::Kind::kGravity) return f;
+  if (!load.is_uniform_acceleration()) return f;
   for (const PointMassSpec& spec : recipe.point_masses) {
     if (find_point(recipe, spec.on) >= 0) continue;
     const Eigen::Vector3d weight = spec.mass * load.force;
@@ -181,7 +181,7 @@ Eigen::VectorXd prescribed_displacement(const PartData& part, const Constrained&
         const double along = held.direction.dot(axes.col(d % 3));
         if (std::abs(along) < 1.0 - kSameDirection) continue;
         match = static_cast<Eigen::Index>(k);
-        s(match) = along > 0.0 ? load.value : -load.value;
+        s(match) = along > 0.0 ? load.amount : -load.amount;
       }
       if (match < 0)
         throw InputError(fmt::format("{}: found {}, which no support holds, expected one that does",

@@ -71,7 +71,7 @@ fe::FePoints points_of(const DofNumbers& numbers, const Elimination& elimination
 /// M times unit accelerations, 3 n_nodes x 3, when a load needs it.
 Eigen::MatrixXd momentum_of(const SparseMatrix& M, const Recipe& recipe) {
   for (const LoadSpec& load : recipe.loads)
-    if (load.kind == LoadSpec::Kind::kGravity)
+    if (load.is_uniform_acceleration())
       return multiply_symmetric(M, Eigen::Matrix3d::Identity().replicate(M.rows() / 3, 1));
   return {};
 }
@@ -81,10 +81,10 @@ std::map<std::string, Eigen::VectorXd> momenta_of_fields(const SparseMatrix& M,
                                                          const PartData& part) {
   std::map<std::string, Eigen::VectorXd> momenta;
   for (const LoadSpec& load : part.recipe.loads) {
-    if (load.kind != LoadSpec::Kind::kAcceleration) continue;
+    if (load.kind != LoadSpec::Kind::kAcceleration || load.field.empty()) continue;
     const RowMatrix& field = part.mesh.fields.at(load.field);
     const Eigen::Map<const Eigen::VectorXd> a(field.data(), field.size());
-    momenta[load.name] = multiply_symmetric(M, load.value * a);
+    momenta[load.name] = multiply_symmetric(M, load.amount * a);
   }
   return momenta;
 }

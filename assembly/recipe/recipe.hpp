@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Contents of a part's fe.toml. assembly/README.md documents the file; lengths here are in metres.
+// Contents of a part's fe.toml (core/recipe) on its mesh: names became nodes, regions and axes.
 #include <Eigen/Core>
 #include <filesystem>
 #include <map>
@@ -17,37 +17,28 @@
 #include "core/fe/axes.hpp"
 #include "core/fe/material.hpp"
 #include "core/mesh/mesh.hpp"
+#include "core/recipe/recipe.hpp"
 
 namespace clatter::assembly {
 
-/// [damping]: D = alpha K + beta M.
-struct DampingSpec {
-  double alpha = 0.0;                  // [s]
-  double beta = 0.0;                   // [1/s]
-  std::optional<double> ratio, at_hz;  // of critical at a frequency, which give alpha
-};
+using recipe::MatrixFiles;
 
 /// A surface or a node set of the mesh, or a point.
-struct Selection {
-  std::string surface, node_set, point;  // exactly one is not empty
-  std::string where;                     // for messages: "file:line: table"
+struct Selection : recipe::Selection {
+  std::string where;  // for messages: "file:line: table"
 };
 
-/// [[point]]: a reference node with six DoFs of its own.
+/// [[point]] at its position.
 struct PointSpec {
   ReferencePoint point;
-  int32_t number = 0;    // in the deck of the mesh; 0: none
-  std::string node_set;  // of its node, or empty
+  int32_t number = 0;  // in the deck of the mesh; 0: none
   std::string where;
 };
 
-/// [[support]]: displacements held at zero, or at the values of a [[load]].
-struct SupportSpec {
-  std::string name;
-  Selection selection;
-  std::vector<int> directions = {0, 1, 2};  // of `axes`; 3 ... 5: rotations of a point
-  std::string system;                       // name of `axes`, or empty
+/// [[support]] with its axes.
+struct SupportSpec : recipe::Support {
   fe::Axes axes;
+  std::string where;
 };
 
 /// [[coupling.term]], [[nodes.term]]: nodes and points, and some of their directions.
@@ -69,12 +60,10 @@ struct CouplingSpec {
   std::vector<int> directions = {0, 1, 2, 3, 4, 5};  // rigid: of the followers; else: reference
 };
 
-/// [[tie]] and [[bolt]]: a slave surface that follows a master surface.
-struct TieSpec {
-  std::string name, slave, master, where;
-  std::optional<double> distance;  // largest gap [m]; absent: a tenth of the mean slave face size
-  bool bolt = false;               // one relative displacement along `direction` stays free
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // unit vector from slave to master
+/// [[tie]] and [[bolt]].
+struct TieSpec : recipe::Tie {
+  bool bolt = false;  // one relative displacement along `direction` stays free
+  std::string where;
 };
 
 /// [[equation]]: sum coefficient * u = 0; the first term depends on the others.
@@ -103,9 +92,9 @@ struct MatrixSpec {
   Eigen::MatrixXd values;                 // symmetric; K [N/m, N, N m], M [kg, kg m, kg m2]
 };
 
-/// [[straight_edges]]: mid-side nodes that move with the mean of the two ends of their edge.
-struct StraightEdgesSpec {
-  std::string node_set, where;
+/// [[straight_edges]].
+struct StraightEdgesSpec : recipe::StraightEdges {
+  std::string where;
 };
 
 /// [[contact]]: a grid of patches on a cylinder surface.
@@ -114,11 +103,9 @@ struct ContactSpec {
   PatchGridSpec grid;
 };
 
-/// [[mean]]: mean displacement of a face along a direction.
-struct MeanSpec {
-  std::string name, surface, where;
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
-  std::optional<std::pair<double, double>> range;  // along the direction [m]
+/// [[mean]].
+struct MeanSpec : recipe::Mean {
+  std::string where;
 };
 
 /// [[sensor]]: the node of a surface nearest to a point; [[nodes]]: nodes and points.
@@ -136,19 +123,16 @@ struct PointMassSpec {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about its centre [kg m2]
 };
 
-/// [[heat]]: boundary conditions and sources of a steady temperature field.
+/// [[heat]] on the mesh.
 struct HeatSpec {
-  /// Of a fluid at a surface.
   struct Film {
     std::string surface;
-    Profile coefficient;            // [W/(m2 K)]
-    Profile temperature;            // of the fluid [K], at the same positions
-    std::filesystem::path table{};  // of points, from which both come; or empty
+    Profile coefficient;  // [W/(m2 K)]
+    Profile temperature;  // of the fluid [K], at the same positions
   };
   struct Flux {
     std::string surface;
-    Profile flux;                   // into the part [W/m2]
-    std::filesystem::path table{};  // of points, from which it comes; or empty
+    Profile flux;  // into the part [W/m2]
   };
   struct Fixed {
     Selection selection;
@@ -156,55 +140,36 @@ struct HeatSpec {
   };
   struct Source {
     std::vector<std::string> regions;
-    double value = 0.0;         // [W/m3]
     std::vector<double> power;  // of each region of the mesh [W/m3]
   };
-  struct Contact {
-    std::string tie;           // a [[tie]] or [[bolt]]
-    double conductance = 0.0;  // [W/(m2 K)]
-  };
+  using Contact = recipe::Heat::Conductance;
   std::string name, where;
-  std::vector<Film> films;
-  std::vector<Flux> fluxes;
-  std::vector<Fixed> fixed;
-  std::vector<Source> sources;
-  std::vector<Contact> contacts;  // of the other ties both sides have the same temperature
+  std::vector<Film> films{};
+  std::vector<Flux> fluxes{};
+  std::vector<Fixed> fixed{};
+  std::vector<Source> sources{};
+  std::vector<Contact> contacts{};
 };
 
-/// [[load]]: a unit load case.
-struct LoadSpec {
-  enum class Kind {
-    kPressure,
-    kResultant,
-    kForce,
-    kGravity,
-    kCentrifugal,
-    kDisplacement,
-    kNodal,
-    kAcceleration,  // a field of the mesh; uniform ones are kGravity
-    kTemperature
-  };
-  std::string name, unit, where;
-  Kind kind = Kind::kPressure;
-  std::string surface, set;  // set: also the name of a point
-  std::string field;         // of the mesh: n x 3 [N] or [m/s2], times `value`; n x 1 [K], minus it
-  std::string heat;          // a [[heat]]: its temperatures, minus `value`
-  Eigen::VectorXd rise;      // temperature rise of the nodes by regions or a table [K], or empty
-  Eigen::VectorXd pressure;  // on `surface` by a table, at its nodes (n_nodes) [Pa]; or empty: 1 Pa
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   // [N] per unit; gravity: unit vector
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // [N m] per unit
-  fe::RotationAxis axis;                             // centrifugal: axis of rotation and
-  std::vector<int32_t> rotating;  // rotating regions; empty: all, and point masses
-  Selection selection;            // prescribed displacement:
-  std::vector<int> directions;    // of `axes`
-  fe::Axes axes;
-  double value = 0.0;  // [m] or [rad]; with a field see `field`; else the rise [K]
+/// [[load]] on the mesh: also of resultants and uniform accelerations `force` is the force or
+/// acceleration of one unit.
+struct LoadSpec : recipe::Load {
+  std::string where{};
+  Eigen::VectorXd node_rises{};      // of temperature, by regions or a table [K], or empty
+  Eigen::VectorXd node_pressures{};  // on the surface by a table (n_nodes) [Pa]; or empty: 1 Pa
+  std::vector<int32_t> rotating{};   // rotating regions; empty: all, and point masses
+  fe::Axes axes{};                   // of `directions`
+  double amount = 0.0;  // displacement [m] or [rad]; factor of a field; temperature of a field or
+                        // [[heat]] without strain [K], or the rise [K]
+
+  /// The same acceleration everywhere, not a field.
+  bool is_uniform_acceleration() const { return kind == Kind::kAcceleration && field.empty(); }
 };
 
 struct Recipe {
   std::vector<fe::Material> materials;  // one per region of the mesh
   fe::MassForm mass = fe::MassForm::kConsistent;
-  DampingSpec damping;
+  recipe::Damping damping;
   std::vector<PointSpec> points;
   std::vector<SupportSpec> supports;
   std::vector<CouplingSpec> couplings;
@@ -223,12 +188,11 @@ struct Recipe {
   std::vector<std::filesystem::path> files;                    // read in addition to the fe.toml
 };
 
-/// The keys of a fe.toml.
-const keys::Table& recipe_table();
-
-/// Reads the entire file and checks it against the mesh; InputError with "file:line: key: found
-/// ..., expected ..." for unknown keys, regions, surfaces, sets, duplicate names, values out of
-/// range.
+/// Checks a file that was read, or that the reader of a deck made, against the mesh. InputError
+/// with "file:line: key: found ..., expected ..." for unknown regions, surfaces, sets, duplicate
+/// names, values out of range.
+Recipe read_recipe(recipe::File file, const mesh::Mesh& mesh);
+/// Reads the file first; InputError also for unknown keys.
 Recipe read_recipe(const Config& config, const mesh::Mesh& mesh);
 
 }  // namespace clatter::assembly

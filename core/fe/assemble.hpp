@@ -16,9 +16,6 @@ struct NodalMatrices {
   SparseMatrix K;  // [N/m], singular: six rigid-body motions
 };
 
-/// Consistent mass, or HRZ lumping: its diagonal scaled to the same total (lump_hrz).
-enum class MassForm { kConsistent, kHrz };
-
 /// Assembles all cells; `materials` has one entry per region of the mesh.
 ///
 /// Cells are processed in chunks: their matrices are computed in parallel, then added in parallel,

@@ -33,9 +33,21 @@ Eigen::Matrix3d Axes::at(const Eigen::Vector3d& position) const {
   return frame * local;
 }
 
+void finish(AxesTable& table) {
+  const Eigen::Vector3d& z = table.z;
+  const Eigen::Vector3d x = table.x                 ? *table.x
+                            : std::abs(z.x()) < 0.9 ? Eigen::Vector3d::UnitX()
+                                                    : Eigen::Vector3d(Eigen::Vector3d::UnitY());
+  const Eigen::Vector3d across = x - x.dot(z) * z;
+  if (across.norm() < kParallel)
+    table.source.fail("x", "found a direction parallel to z, expected a different one");
+  table.axes.frame << across.normalized(), z.cross(across.normalized()), z;
+}
+
 const keys::Keys<AxesTable>& axes_keys() {
   static const keys::Keys<AxesTable> keys(
       "system", "axes for directions", [](auto& key, AxesTable& table) {
+        key.source(table.source);
         key.choice("kind", table.axes.kind,
                    {{"rectangular", Axes::Kind::kRectangular},
                     {"cylindrical", Axes::Kind::kCylindrical},
@@ -47,16 +59,7 @@ const keys::Keys<AxesTable>& axes_keys() {
         key.direction("x", table.x,
                       "direction near the first axis; x, or y near a third axis along x, without "
                       "it");
-        key.check([](const Config& config, AxesTable& t) {
-          const Eigen::Vector3d x = t.x ? *t.x
-                                    : std::abs(t.z.x()) < 0.9
-                                        ? Eigen::Vector3d::UnitX()
-                                        : Eigen::Vector3d(Eigen::Vector3d::UnitY());
-          const Eigen::Vector3d across = x - x.dot(t.z) * t.z;
-          if (across.norm() < kParallel)
-            config.fail("x", "found a direction parallel to z, expected a different one");
-          t.axes.frame << across.normalized(), t.z.cross(across.normalized()), t.z;
-        });
+        key.check([](const Config&, AxesTable& t) { finish(t); });
       });
   return keys;
 }

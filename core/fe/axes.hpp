@@ -2,11 +2,15 @@
 #pragma once
 // Coordinate systems for directions: [system.NAME] of a part's fe.toml.
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 
 #include "core/keys/keys.hpp"
 
 namespace clatter::fe {
+
+/// Names of DoFs: displacements along x, y, z and rotations about them.
+inline constexpr std::array<const char*, 6> kDofNames = {"x", "y", "z", "rx", "ry", "rz"};
 
 /// Rectangular, cylindrical or spherical axes. In a rectangular system the directions are x, y, z;
 /// in a cylindrical one radial, tangential, axial; in a spherical one radial, along the meridian
@@ -24,12 +28,16 @@ struct Axes {
 
 /// The table [system.NAME], with the axes that follow from it.
 struct AxesTable {
-  Axes axes;
+  keys::Source source{};
+  Axes axes{};
   Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
   std::optional<Eigen::Vector3d> x = std::nullopt;
 };
 
-/// Its keys; InputError when x is parallel to z.
+/// Sets the frame from x and z; InputError when they are parallel.
+void finish(AxesTable& table);
+
+/// Its keys.
 const keys::Keys<AxesTable>& axes_keys();
 
 /// An axis of rotation.

@@ -27,13 +27,13 @@ Elasticity stress_rotation(const Eigen::Matrix3d& R) {
   return Q;
 }
 
-void require_count(const Config& table, std::string_view key, const std::vector<double>& values,
-                   size_t expected) {
+void require_count(const keys::Source& table, std::string_view key,
+                   const std::vector<double>& values, size_t expected) {
   if (values.size() != expected)
     table.fail(key, fmt::format("found {} numbers, expected {}", values.size(), expected));
 }
 
-Elasticity orthotropic(const Config& table, const MaterialTable& m) {
+Elasticity orthotropic(const keys::Source& table, const MaterialTable& m) {
   const std::vector<double>&E = m.E, &nu = m.nu, &G = m.G;
   require_count(table, "E", E, 3);
   require_count(table, "nu", nu, 3);
@@ -53,7 +53,7 @@ Elasticity orthotropic(const Config& table, const MaterialTable& m) {
   return factor.solve(Elasticity::Identity());
 }
 
-Elasticity anisotropic(const Config& table, const std::vector<double>& upper) {
+Elasticity anisotropic(const keys::Source& table, const std::vector<double>& upper) {
   require_count(table, "C", upper, 21);
   Elasticity C;
   size_t at = 0;
@@ -63,38 +63,6 @@ Elasticity anisotropic(const Config& table, const std::vector<double>& upper) {
     table.fail("C",
                "found a matrix that is not positive definite, expected a positive definite one");
   return C;
-}
-
-/// Sets what follows from several keys.
-void finish(const Config& table, MaterialTable& m) {
-  Material& material = m.material;
-  if (!m.C.empty()) {
-    material.elasticity = anisotropic(table, m.C);
-  } else if (m.E.size() != 1) {
-    material.elasticity = orthotropic(table, m);
-  } else {
-    require_count(table, "nu", m.nu, 1);
-    material.youngs = m.E[0];
-    material.poisson = m.nu[0];
-    if (!(material.poisson > -1.0 && material.poisson < 0.5))
-      table.fail("nu", fmt::format("found {:g}, expected -1 < nu < 0.5", material.poisson));
-  }
-  const auto along_axes = [&](const char* key, const std::vector<double>& given, auto along) {
-    if (given.empty()) return;
-    if (given.size() != 1) require_count(table, key, given, 3);
-    for (int i = 0; i < 3; ++i) along(i) = given[given.size() == 1 ? 0 : static_cast<size_t>(i)];
-  };
-  along_axes("expansion", m.expansion, material.expansion.head<3>());
-  along_axes("conductivity", m.conductivity, material.conductivity.head<3>());
-}
-
-/// The row of a modulus in Pa or GPa.
-template <class Rows>
-void modulus(Rows& key, const std::string& name, std::vector<double>& at, bool& in_gpa, Range range,
-             const std::string& meaning) {
-  key.one_or_more(name, at, range, meaning).shown_in("Pa");
-  key.one_or_more(name + "_gpa", at, range, meaning);
-  key.in_either(name, name + "_gpa", in_gpa);
 }
 
 }  // namespace
@@ -128,45 +96,26 @@ Eigen::Matrix3d Material::conductivity_at(const Eigen::Vector3d& x) const {
   return R * conductivity.asDiagonal() * R.transpose();
 }
 
-const keys::Keys<MaterialTable>& material_keys() {
-  static const keys::Keys<MaterialTable> keys(
-      "material", "linear elastic, isotropic, orthotropic or anisotropic",
-      [](auto& key, MaterialTable& m) {
-        modulus(key, "E", m.E, m.E_in_gpa, Range::positive(),
-                "Young's modulus, or E1, E2, E3 of an orthotropic material");
-        key.one_or_more("nu", m.nu, {},
-                        "Poisson's ratio, or nu12, nu13, nu23, where nu12/E1 = nu21/E2")
-            .required_with("E")
-            .required_with("E_gpa");
-        modulus(key, "G", m.G, m.G_in_gpa, Range::positive(),
-                "shear moduli G12, G13, G23 of an orthotropic material");
-        modulus(key, "C", m.C, m.C_in_gpa, {},
-                "21 constants of an anisotropic material: the upper triangle, row by row, for "
-                "stresses and strains 11 22 33 12 23 31");
-        key.one_of({"E", "E_gpa", "C", "C_gpa"});
-        key.number("rho", m.material.density, Range::positive(), "density")
-            .required()
-            .shown_in("kg/m3");
-        key.one_or_more("expansion", m.expansion, {},
-                        "thermal expansion, one number or three along the axes")
-            .shown_in("1/K");
-        key.one_or_more("conductivity", m.conductivity, Range::positive(),
-                        "thermal conductivity, one number or three along the axes")
-            .shown_in("W/(m K)");
-        key.text("system", m.system, "name of a [system] whose axes are the material's");
-        const char* meaning = "integration of the stiffness of these cells";
-        const auto full = std::pair{"full", Integration::kFull};
-        const auto reduced = std::pair{"reduced", Integration::kReduced};
-        const auto fine = std::pair{"fine", Integration::kFine};
-        IntegrationChoice& of = m.material.integration;
-        key.choice("hex8", of.hex8, {{"incompatible", Integration::kIncompatible}, full, fine},
-                   meaning);
-        key.choice("hex20", of.hex20, {full, reduced}, meaning);
-        key.choice("wedge6", of.wedge6, {full, reduced, fine}, meaning);
-        key.choice("wedge15", of.wedge15, {full, reduced}, meaning);
-        key.check(finish);
-      });
-  return keys;
+void finish(const keys::Source& table, MaterialTable& m) {
+  Material& material = m.material;
+  if (!m.C.empty()) {
+    material.elasticity = anisotropic(table, m.C);
+  } else if (m.E.size() != 1) {
+    material.elasticity = orthotropic(table, m);
+  } else {
+    require_count(table, "nu", m.nu, 1);
+    material.youngs = m.E[0];
+    material.poisson = m.nu[0];
+    if (!(material.poisson > -1.0 && material.poisson < 0.5))
+      table.fail("nu", fmt::format("found {:g}, expected -1 < nu < 0.5", material.poisson));
+  }
+  const auto along_axes = [&](const char* key, const std::vector<double>& given, auto along) {
+    if (given.empty()) return;
+    if (given.size() != 1) require_count(table, key, given, 3);
+    for (int i = 0; i < 3; ++i) along(i) = given[given.size() == 1 ? 0 : static_cast<size_t>(i)];
+  };
+  along_axes("expansion", m.expansion, material.expansion.head<3>());
+  along_axes("conductivity", m.conductivity, material.conductivity.head<3>());
 }
 
 }  // namespace clatter::fe

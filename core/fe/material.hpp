@@ -27,6 +27,9 @@ struct IntegrationChoice {
   Integration wedge15 = Integration::kFull;
 };
 
+/// Consistent mass, or HRZ lumping: its diagonal scaled to the same total (lump_hrz).
+enum class MassForm { kConsistent, kHrz };
+
 /// A linear elastic material. Isotropic: sigma = lambda tr(eps) I + 2 mu eps.
 struct Material {
   double youngs = 0.0;                                  // E [Pa]; isotropic only
@@ -51,9 +54,7 @@ struct Material {
   Eigen::Matrix3d conductivity_at(const Eigen::Vector3d& x) const;
 };
 
-/// A table [material.NAME], and the material that follows from it. InputError unless the elasticity
-/// is positive definite (isotropic: E > 0, -1 < nu < 0.5): otherwise the elastic energy has no
-/// lower bound.
+/// A table [material.NAME], and the material that follows from it.
 struct MaterialTable {
   Material material;            // without axes
   std::vector<double> E, G, C;  // [Pa]
@@ -62,6 +63,11 @@ struct MaterialTable {
   std::string system;  // name of the axes; empty: the global frame
 };
 
+/// Sets the material from the constants. InputError unless the elasticity is positive definite
+/// (isotropic: E > 0, -1 < nu < 0.5): otherwise the elastic energy has no lower bound.
+void finish(const keys::Source& source, MaterialTable& table);
+
+/// The keys, whose constants finish() checks together.
 const keys::Keys<MaterialTable>& material_keys();
 
 }  // namespace clatter::fe

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,9 @@ struct Key {
   std::string standard;     // the default as TOML; "": none
   bool required = false;
   bool ascending = false;  // of lists of numbers
+  bool always = false;     // a text for people has it also where it is the default
+  bool one_line = false;   // of kTables: a text has each on a line, in braces
+  bool triangle = false;   // of kNumbers: a text has the rows of a lower triangle
   std::vector<Rule> rules;
   const Table* table = nullptr;  // of kTable, kTables and kNamed
   std::shared_ptr<const Table>
@@ -72,6 +76,8 @@ struct Key {
   std::function<void(const Key& key, const Config& table, std::byte* member)> read;
   /// The member as TOML; "" for what no file can give. Empty for tables.
   std::function<std::string(const Key& key, const std::byte* member)> written;
+  /// The first number outside the range, in the key's unit. Empty for keys without numbers.
+  std::function<std::optional<double>(const Key& key, const std::byte* member)> outside;
   /// Calls see(name, struct) for each struct of a kTable, kTables or kNamed; the name of kNamed.
   using See = std::function<void(const std::string& name, const std::byte* object)>;
   std::function<void(const std::byte* member, const See& see)> each;

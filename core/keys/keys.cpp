@@ -19,8 +19,9 @@ double in_si(double value, const KeyUnit& unit, const Config& table) {
   return value * (unit.of_file ? table.metre() * unit.scale : unit.scale) + unit.offset;
 }
 
-// To 15 digits: 4e-5 m is 40 um, not 39.99999999999999.
+// To 15 digits: 4e-5 m is 40 um, not 39.99999999999999. In the unit itself all digits.
 double in_unit(double value, const KeyUnit& unit, double metre = 1.0) {
+  if (unit.scale == 1.0 && unit.offset == 0.0 && (!unit.of_file || metre == 1.0)) return value;
   return rounded((value - unit.offset) / (unit.of_file ? metre * unit.scale : unit.scale), 15);
 }
 
@@ -49,6 +50,13 @@ void check_each(const Config& table, const std::string& name, const Range& range
     if (!is_inside(range, value))
       table.fail(name, fmt::format("found {:g}, expected {}", value, expectation(range)));
   }
+}
+
+std::optional<double> first_outside(const Key& row, const double* values, size_t count) {
+  for (size_t k = 0; k < count; ++k)
+    if (const double value = in_unit(values[k], row.unit); !is_inside(row.range, value))
+      return value;
+  return std::nullopt;
 }
 
 std::vector<double> read_list(const Config& table, const Key& row) {
@@ -110,6 +118,9 @@ Row Rows::number(std::string name, double& at, Range range, std::string meaning)
   key.written = [](const Key& row, const std::byte* bytes) {
     return shown(row.range, in_unit(member<double>(bytes), row.unit));
   };
+  key.outside = [](const Key& row, const std::byte* bytes) {
+    return first_outside(row, &member<double>(bytes), 1);
+  };
   return Row(key);
 }
 
@@ -127,6 +138,10 @@ Row Rows::number(std::string name, std::optional<double>& at, Range range, std::
   key.written = [](const Key& row, const std::byte* bytes) {
     const auto& value = member<std::optional<double>>(bytes);
     return value ? shown(in_unit(*value, row.unit)) : "";
+  };
+  key.outside = [](const Key& row, const std::byte* bytes) {
+    const auto& value = member<std::optional<double>>(bytes);
+    return value ? first_outside(row, &*value, 1) : std::nullopt;
   };
   return Row(key);
 }
@@ -205,6 +220,10 @@ Row Rows::numbers(std::string name, std::vector<double>& at, Range each, std::st
     const auto& values = member<std::vector<double>>(bytes);
     return written_list(row, values.data(), values.size());
   };
+  key.outside = [](const Key& row, const std::byte* bytes) {
+    const auto& values = member<std::vector<double>>(bytes);
+    return first_outside(row, values.data(), values.size());
+  };
   return Row(key);
 }
 
@@ -214,6 +233,10 @@ Row Rows::one_or_more(std::string name, std::vector<double>& at, Range each, std
   key.type = Type::kEither;
   key.types = {Type::kNumber, Type::kNumbers};
   key.shape = "a number or a list of numbers";
+  key.written = [written = key.written](const Key& self, const std::byte* bytes) {
+    const auto& values = member<std::vector<double>>(bytes);
+    return values.size() == 1 ? shown(in_unit(values[0], self.unit)) : written(self, bytes);
+  };
   key.read = [read = key.read](const Key& self, const Config& table, std::byte* bytes) {
     if (!table.has(self.name) || table.is_list(self.name)) {
       read(self, table, bytes);
@@ -252,8 +275,8 @@ Row Rows::by_name(std::string name, std::map<std::string, double>& at, Range eac
   key.written = [](const Key& row, const std::byte* bytes) -> std::string {
     std::vector<std::string> all;
     for (const auto& [one, value] : member<std::map<std::string, double>>(bytes))
-      all.push_back(fmt::format("{} = {}", quoted(one), shown(in_unit(value, row.unit))));
-    return all.empty() ? "" : fmt::format("{{{}}}", fmt::join(all, ", "));
+      all.push_back(fmt::format("{} = {}", toml_key(one), shown(in_unit(value, row.unit))));
+    return all.empty() ? "" : fmt::format("{{ {} }}", fmt::join(all, ", "));
   };
   key.read = [](const Key& row, const Config& table, std::byte* bytes) {
     const auto found = row.required ? table.table(row.name) : table.find_table(row.name);

@@ -145,6 +145,14 @@ class Keys : private Rows {
   std::string toml_of(const S& s) const {
     return data_.toml_of(reinterpret_cast<const std::byte*>(&s));
   }
+  /// The same for people: without defaults, with the comments of its sources.
+  std::string text_of(const S& s) const {
+    return data_.text_of(reinterpret_cast<const std::byte*>(&s));
+  }
+  /// Refuses numbers outside their range in a struct that no file gave.
+  void check_ranges(const S& s) const {
+    data_.check_ranges(reinterpret_cast<const std::byte*>(&s));
+  }
   /// The same over values that `result` has already.
   void read(const Config& config, S& result) const {
     data_.read(config, reinterpret_cast<std::byte*>(&result));
@@ -177,6 +185,9 @@ class Keys : private Rows {
           key.empty() ? config.where() : config.where(key);
     });
   }
+
+  /// The member gets the table itself, for messages of later checks.
+  void source(Source& at) { data_.source_ = offset_of(&at); }
 
   /// A text of which each stands for a value; an optional member is absent without the key.
   template <class E>
@@ -300,7 +311,17 @@ class Keys : private Rows {
         });
   }
   /// A key with a reader of its own: read(config, key, member) is called when the key is there.
-  /// `shape` says what may be written: "a number or a list of numbers".
+  /// `shape` says what may be written: "a number or a list of numbers". write(key, member) gives it
+  /// back as TOML.
+  template <class T, class Read, class Write>
+  Row value(std::string name, T& at, std::string shape, std::string meaning, const Read& read,
+            const Write& write) {
+    const Row row = value(std::move(name), at, std::move(shape), std::move(meaning), read);
+    data_.keys_.back().written = [write](const Key& self, const std::byte* member) -> std::string {
+      return write(self, *reinterpret_cast<const T*>(member));
+    };
+    return row;
+  }
   template <class T, class Read>
   Row value(std::string name, T& at, std::string shape, std::string meaning, const Read& read) {
     Key& key = add(std::move(name), Type::kEither, &at, std::move(meaning));

@@ -3,6 +3,7 @@
 // A member of a struct by its bytes, for the rows of keys.hpp.
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace clatter::keys {
 
@@ -16,6 +17,9 @@ const T& member(const std::byte* bytes) {
   return *reinterpret_cast<const T*>(bytes);
 }
 
-inline std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+/// A TOML string, quoted and escaped.
+std::string toml_text(std::string_view text);
+/// A TOML key: bare where it may be.
+std::string toml_key(std::string_view text);
 
 }  // namespace clatter::keys

@@ -83,4 +83,19 @@ Row& Row::times(double factor) {
   return *this;
 }
 
+Row& Row::always() {
+  key_.always = true;
+  return *this;
+}
+
+Row& Row::one_line() {
+  key_.one_line = true;
+  return *this;
+}
+
+Row& Row::triangle() {
+  key_.triangle = true;
+  return *this;
+}
+
 }  // namespace clatter::keys

@@ -50,6 +50,12 @@ class Row {
   Row& unconverted();
   /// The member gets `factor` times the value: 0.5 for a radius given as a diameter.
   Row& times(double factor);
+  /// A text for people has it also where it is the default.
+  Row& always();
+  /// Of tables(): a text has each on a line, in braces.
+  Row& one_line();
+  /// Of a list: a text has the rows of a lower triangle on lines.
+  Row& triangle();
 
  private:
   Key& key_;

@@ -112,6 +112,7 @@ void Table::check_known(const Config& table) const {
 }
 
 void Table::read(const Config& table, std::byte* object) const {
+  if (source_) *reinterpret_cast<Source*>(object + *source_) = Source(table);
   if (!shared_) check_known(table);
   for (const Key& key : keys_)
     if (key.read && (key.required || table.has(key.name) || applies(key, table, object)))

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The keys of one TOML table, without the type of the struct that they fill: see keys.hpp.
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/keys/key.hpp"
+#include "core/keys/source.hpp"
 
 namespace clatter::keys {
 
@@ -39,6 +41,12 @@ class Table {
   /// All values as TOML, that of `prefix` below which the table is; defaults that exclude or need
   /// what the object has otherwise are left out.
   std::string toml_of(const std::byte* object, const std::string& prefix = "") const;
+  /// The struct as a file for people: without defaults, with the comments of its sources, lengths
+  /// in the file's unit. `prefix` as above.
+  std::string text_of(const std::byte* object, const std::string& prefix = "",
+                      double metre = 1.0) const;
+  /// Refuses numbers outside their range, also of tables below, as read() does.
+  void check_ranges(const std::byte* object, const Source& above = {}) const;
 
  private:
   friend class Rows;
@@ -46,6 +54,13 @@ class Table {
   friend class Keys;
   void check_rules(const Config& table, const std::byte* object) const;
   bool is_written(const Key& key, const std::byte* object) const;
+  bool has_text(const Key& key, const std::byte* object) const;
+  /// Its tables below, each with its heading.
+  std::string tables_text(const Key& key, const std::byte* object, const std::string& prefix,
+                          double metre) const;
+  /// The tables of a list in braces, one a line.
+  std::string lines_text(const Key& key, const std::byte* object, double metre) const;
+  const Source& source_of(const std::byte* object, const Source& other) const;
   bool has_value(const Rule& rule, const std::byte* object) const;
   /// What it needs is there, as far as rows before it say: without that no default is recorded.
   bool applies(const Key& key, const Config& table, const std::byte* object) const;
@@ -60,7 +75,9 @@ class Table {
   std::vector<Key> keys_;
   std::vector<std::vector<std::string>> alternatives_;
   bool complete_elsewhere_ = false;
-  bool shared_ = false;  // other readers take further keys of the same TOML table
+  std::optional<size_t> source_;  // offset of a Source in the struct
+  std::optional<size_t> metre_;   // offset of the file's unit of lengths
+  bool shared_ = false;           // other readers take further keys of the same TOML table
 };
 
 }  // namespace clatter::keys

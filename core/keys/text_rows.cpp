@@ -21,7 +21,7 @@ Row Rows::text(std::string name, std::string& at, std::string meaning) {
   };
   key.written = [](const Key&, const std::byte* bytes) {
     const auto& value = member<std::string>(bytes);
-    return value.empty() ? "" : quoted(value);
+    return value.empty() ? "" : toml_text(value);
   };
   return Row(key);
 }
@@ -54,7 +54,7 @@ Row Rows::add_choice(std::string name, const void* at, std::vector<std::string> 
   };
   key.written = [index_of](const Key& row, const std::byte* bytes) {
     const size_t k = index_of(row, bytes);
-    return k == row.choices.size() ? "" : quoted(row.choices[k]);
+    return k == row.choices.size() ? "" : toml_text(row.choices[k]);
   };
   return Row(key);
 }
@@ -92,7 +92,7 @@ Row Rows::units(std::string name, UnitSystem& at, std::string meaning) {
       member<UnitSystem>(bytes) = unit_system_named(table.text(row.name), table.where(row.name));
   };
   key.written = [](const Key&, const std::byte* bytes) {
-    return quoted(member<UnitSystem>(bytes).name);
+    return toml_text(member<UnitSystem>(bytes).name);
   };
   return Row(key);
 }
@@ -105,7 +105,7 @@ Row Rows::path(std::string name, std::filesystem::path& at, std::string meaning)
   };
   key.written = [](const Key&, const std::byte* bytes) {
     const auto& value = member<std::filesystem::path>(bytes);
-    return value.empty() ? "" : quoted(value.string());
+    return value.empty() ? "" : toml_text(value.string());
   };
   return Row(key);
 }
@@ -138,7 +138,7 @@ std::vector<std::string> Rows::read_choices(const Key& row, const Config& table,
 
 std::string Rows::in_toml(const std::vector<std::string>& texts) {
   std::vector<std::string> all;
-  for (const std::string& text : texts) all.push_back(quoted(text));
+  for (const std::string& text : texts) all.push_back(toml_text(text));
   return fmt::format("[{}]", fmt::join(all, ", "));
 }
 
@@ -164,6 +164,7 @@ Row Rows::length_unit(std::string name, double& at,
   Row row =
       add_choice(std::move(name), &at, std::move(names), std::move(values), std::move(meaning));
   Key& key = table_.keys_.back();
+  table_.metre_ = key.offset;
   key.read = [read = key.read](const Key& self, const Config& table, std::byte* bytes) {
     read(self, table, bytes);
     table.set_metre(member<double>(bytes));

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a deck of Nastran, Abaqus or CalculiX to a reduced model, in one process.
 //   deck_to_rom part.inp mm-t-s part.rom.h5 fmax_hz node_set ...
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -23,14 +21,15 @@ int main(int argc, char** argv) {
     mesh::MeshRequest request;
     request.input = argv[1];
     request.units = argv[2];
-    const mesh::NewMesh deck = mesh::make_mesh(request, clock);
-    // Materials, supports, couplings and loads of the deck, as the fe.toml that people may edit;
-    // its node sets become coordinates where they are named.
-    std::string recipe_text = deck.recipe;
-    for (int i = 5; i < argc; ++i)
-      recipe_text += fmt::format("\n[[nodes]]\nname = \"{0}\"\nnode_set = \"{0}\"\n", argv[i]);
-    const assembly::Recipe recipe =
-        assembly::read_recipe(Config::parse(recipe_text, argv[1]), deck.mesh);
+    mesh::NewMesh deck = mesh::make_mesh(request, clock);
+    // Materials, supports, couplings and loads of the deck, as a fe.toml has them; its node sets
+    // become coordinates where they are named.
+    recipe::File& file = deck.recipe.value().file;
+    for (int i = 5; i < argc; ++i) {
+      recipe::Nodes& kept = file.nodes.emplace_back();
+      kept.name = kept.members.selection.node_set = argv[i];
+    }
+    const assembly::Recipe recipe = assembly::read_recipe(file, deck.mesh);
     const fe::FeModel model = assembly::build_fe_model(deck.mesh, recipe, clock).model;
 
     condense::CondenseOptions options;

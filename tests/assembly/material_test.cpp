@@ -17,7 +17,9 @@ namespace clatter::assembly::testing {
 namespace {
 
 fe::Material parse(const std::string& text, const std::map<std::string, fe::Axes>& systems = {}) {
-  const fe::MaterialTable table = fe::material_keys().read(Config::parse(text, "m.toml"));
+  const Config config = Config::parse(text, "m.toml");
+  fe::MaterialTable table = fe::material_keys().read(config);
+  fe::finish(keys::Source(config), table);
   fe::Material material = table.material;
   if (!table.system.empty()) material.axes = systems.at(table.system);
   return material;

@@ -7,7 +7,7 @@
 #include "core/base/units.hpp"
 #include "mesh/deck/import.hpp"
 #include "mesh/deck/msh/foreign_deck.hpp"
-#include "mesh/deck/recipe/text.hpp"
+#include "mesh/deck/recipe/recipe.hpp"
 
 namespace clatter::test {
 
@@ -15,7 +15,7 @@ namespace clatter::test {
 inline void finish(mesh::deck::Deck deck) {
   const bool say_notes = false;
   mesh::deck::finish_deck(deck, unit_system_named("mm-t-s", "units"), "fuzz", say_notes);
-  mesh::deck::recipe_text(deck);
+  mesh::deck::recipe_of(deck).text();
 }
 
 /// The same of a mesh with groups.

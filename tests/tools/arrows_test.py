@@ -25,15 +25,16 @@ LIBRARIES = {
     "core/sparse": {"core/base", "core/dense", "core/keys"},
     "core/sound": {"core/base", "core/dense"},
     "core/fe": {"core/base", "core/dense", "core/keys", "core/mesh", "core/rom"},
+    "core/recipe": {"core/base", "core/dense", "core/keys", "core/mesh", "core/rom", "core/fe"},
     "core/modes": {"core/base", "core/dense", "core/keys", "core/mesh", "core/rom", "core/fe", "core/sparse"},
     "core/ranks": {"core/base", "core/dense", "core/keys", "core/mesh", "core/rom", "core/fe", "core/sparse"},
 }
 # Stages: each is one program, writes files for the next one, and uses no other stage.
 STAGES = {
-    "mesh": {"core/base", "core/keys", "core/mesh"},
-    "assembly": {"core/base", "core/dense", "core/keys", "core/mesh", "core/rom", "core/fe", "core/sparse"},
-    "modal": set(LIBRARIES) - {"core/run", "core/sound"},
-    "condense": set(LIBRARIES) - {"core/run", "core/sound"},
+    "mesh": {"core/base", "core/dense", "core/keys", "core/mesh", "core/rom", "core/fe", "core/recipe"},
+    "assembly": {"core/base", "core/dense", "core/keys", "core/mesh", "core/rom", "core/fe", "core/recipe", "core/sparse"},
+    "modal": set(LIBRARIES) - {"core/recipe", "core/run", "core/sound"},
+    "condense": set(LIBRARIES) - {"core/recipe", "core/run", "core/sound"},
     "dynamics": {"core/base", "core/dense", "core/keys", "core/rom", "core/run"},
     "recover": {"core/base", "core/dense", "core/keys", "core/rom", "core/run", "core/sound"},
 }
@@ -266,6 +267,10 @@ class Linking(unittest.TestCase):
                 libraries = [*loaded(self.executable(stage)), *needed(self.executable(stage))]
                 self.assertEqual([name for name in libraries if name.startswith(HEAVY)], [])
         observed("dynamics and recover load no heavy library")
+
+    def test_mesh_loads_no_blas(self):
+        libraries = loaded(self.executable("mesh"))
+        self.assertEqual([name for name in libraries if name.startswith(("libblas", "liblapack", "libopenblas"))], [])
 
     def test_hardC10_only_mesh_links_gmsh(self):
         for stage in ("assembly", "modal", "condense"):

@@ -2,7 +2,6 @@
 #include "mesh/deck/recipe/loads.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,70 +26,53 @@ bool same_supports(const Step& a, const Step& b) {
                     same_hold);
 }
 
-/// The text of one [[support]] or of a displacement load: target, directions, system.
-std::string hold(const std::string& head, const std::string& target, DofMask dofs,
-                 const Support& support) {
-  return fmt::format(
-      "\n{}{}directions = {}\n{}", head, target, toml_directions(dofs),
-      support.system.empty() ? "" : fmt::format("system = {}\n", toml_text(support.system)));
-}
+using Kind = recipe::Load::Kind;
 
-class StepWriter {
+class StepLoads {
  public:
-  StepWriter(Deck& deck, RecipeNames& names, const Step& step)
-      : deck_(deck), names_(names), step_(step) {}
+  StepLoads(Deck& deck, RecipeNames& names, const Step& step, Recipe& recipe)
+      : deck_(deck), names_(names), step_(step), recipe_(recipe) {}
 
-  std::string write() {
+  void add_all() {
     forces();
     for (const Step::Pressure& pressure : step_.pressures)
-      add("pressure",
-          fmt::format("kind = \"pressure\"\nsurface = {}\n", toml_text(pressure.surface)),
-          pressure.value);
-    const double acceleration = step_.acceleration.norm();
-    if (acceleration > 0.0) {
-      const Eigen::Vector3d along = step_.acceleration / acceleration;
-      add("weight",
-          fmt::format("kind = \"acceleration\"\ndirection = {}\n",
-                      toml_list({along(0), along(1), along(2)})),
-          acceleration);
-    }
+      add("pressure", Kind::kPressure, pressure.value).selection.surface = pressure.surface;
+    if (const double acceleration = step_.acceleration.norm(); acceleration > 0.0)
+      add("weight", Kind::kAcceleration, acceleration).direction =
+          step_.acceleration / acceleration;
     if (step_.accelerations.size() > 0 && !step_.accelerations.isZero(0.0)) {
       const std::string name = step_.name + "_accelerations";
       deck_.mesh.fields[name] = step_.accelerations;
-      add("acceleration", fmt::format("kind = \"acceleration\"\nfield = {}\n", toml_text(name)),
-          1.0);
+      add("acceleration", Kind::kAcceleration).field = name;
     }
     for (const Step::Rotation& one : step_.rotations) {
-      std::vector<std::string> regions;
-      for (const std::string& region : one.regions) regions.push_back(toml_text(region));
-      add("rotation",
-          fmt::format(
-              "kind = \"centrifugal\"\naxis_point = {}\naxis = {}\n{}",
-              toml_list({one.point(0), one.point(1), one.point(2)}),
-              toml_list({one.axis(0), one.axis(1), one.axis(2)}),
-              regions.empty() ? "" : fmt::format("regions = [{}]\n", fmt::join(regions, ", "))),
-          one.omega_squared);
+      recipe::Load& load = add("rotation", Kind::kCentrifugal, one.omega_squared);
+      load.axis = {one.point, one.axis};
+      load.regions = one.regions;
     }
-    if (!step_.temperature.empty() && !expands())
-      text_ += fmt::format("\n# {} ({}) has temperatures, and no material expands\n", step_.name,
-                           step_.where);
-    else if (!step_.temperature.empty())
-      add("heat",
-          fmt::format("kind = \"temperature\"\nfield = {}\nreference = {}\n",
-                      toml_text(step_.temperature), reference_temperature()),
-          1.0);
+    if (!step_.temperature.empty() && !expands()) {
+      recipe_.remarks.push_back(fmt::format("{} ({}) has temperatures, and no material expands",
+                                            step_.name, step_.where));
+    } else if (!step_.temperature.empty()) {
+      recipe::Load& load = add("heat", Kind::kTemperature);
+      load.field = step_.temperature;
+      load.reference = reference_temperature();
+    }
     displacements();
-    if (factors_.empty()) return text_;
-    return text_ + fmt::format("\n[[case]]\nname = {}\nloads = {{ {} }}\n", toml_text(step_.name),
-                               fmt::join(factors_, ", "));
+    if (!sum_.factors.empty()) recipe_.file.cases.push_back(sum_);
   }
 
  private:
-  void add(const std::string& kind, const std::string& body, double factor) {
-    const std::string name = fmt::format(
-        "{}_{}{}", step_.name, kind, ++count_[kind] == 1 ? "" : fmt::format("_{}", count_[kind]));
-    text_ += fmt::format("\n[[load]]\nname = {}\n{}", toml_text(name), body);
-    factors_.push_back(fmt::format("{} = {}", toml_key(name), factor));
+  /// The next load of the step, with its factor in the case.
+  recipe::Load& add(const std::string& name, Kind kind, double factor = 1.0) {
+    recipe::Load& load = recipe_.file.loads.emplace_back();
+    const int count = ++count_[name];
+    load.source = keys::Source(step_.where);
+    load.name = count == 1 ? fmt::format("{}_{}", step_.name, name)
+                           : fmt::format("{}_{}_{}", step_.name, name, count);
+    load.kind = kind;
+    sum_.factors[load.name] = factor;
+    return load;
   }
 
   Eigen::Vector3d direction(const Step::NodalForce& force) const {
@@ -115,9 +97,7 @@ class StepWriter {
         field.row(force.node_index) += value.transpose();
         continue;
       }
-      const std::string point = names_.is_point(force.node_index)
-                                    ? names_.point(force.node_index)
-                                    : names_.point_on_node(force.node_index);
+      const std::string point = names_.reference(force.node_index);
       auto [at, fresh] = on_points.try_emplace(point);
       if (fresh) at->second = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
       (moment ? at->second.second : at->second.first) += value;
@@ -125,26 +105,27 @@ class StepWriter {
     if (!field.isZero(0.0)) {
       const std::string name = step_.name + "_forces";
       deck_.mesh.fields[name] = field;
-      add("forces", fmt::format("kind = \"nodal\"\nfield = {}\n", toml_text(name)), 1.0);
+      add("forces", Kind::kNodal).field = name;
     }
     for (const auto& [point, vectors] : on_points) {
       const auto& [force, moment] = vectors;
       if (force.isZero(0.0) && moment.isZero(0.0)) continue;
-      add("force",
-          fmt::format("kind = \"force\"\nset = {}\nforce = {}\nmoment = {}\n", toml_text(point),
-                      toml_list({force(0), force(1), force(2)}),
-                      toml_list({moment(0), moment(1), moment(2)})),
-          1.0);
+      recipe::Load& load = add("force", Kind::kForce);
+      load.set = point;
+      load.force = force;
+      load.moment = moment;
     }
   }
 
   void displacements() {
-    const auto prescribe = [&](const Support& support, DofMask part, const std::string& target) {
+    const auto prescribe = [&](const Support& support, int part,
+                               const recipe::Selection& selection) {
       if (part == 0) return;
-      std::string body = fmt::format("kind = \"displacement\"\n{}directions = {}\nvalue = {}\n",
-                                     target, toml_directions(part), support.value);
-      if (!support.system.empty()) body += fmt::format("system = {}\n", toml_text(support.system));
-      add("displacement", body, 1.0);
+      recipe::Load& load = add("displacement", Kind::kDisplacement);
+      load.selection = selection;
+      load.directions = directions_of(static_cast<DofMask>(part));
+      load.value = support.value;
+      load.system = support.system;
     };
     std::vector<const Support*> all;
     for (const Support& support : deck_.supports) all.push_back(&support);
@@ -154,12 +135,10 @@ class StepWriter {
       if (support->value == 0.0) continue;
       const NamedNodes named = names_.node_indices(support->node_indices, set_name(*support));
       if (!named.node_set.empty())
-        prescribe(*support, support->dofs & kTranslations,
-                  fmt::format("node_set = {}\n", toml_text(named.node_set)));
+        prescribe(*support, support->dofs & kTranslations, {.node_set = named.node_set});
       for (const std::string& point : named.points) {
-        const std::string target = fmt::format("point = \"{}\"\n", point);
-        prescribe(*support, support->dofs & kTranslations, target);
-        prescribe(*support, static_cast<DofMask>(support->dofs & ~kTranslations), target);
+        prescribe(*support, support->dofs & kTranslations, {.point = point});
+        prescribe(*support, support->dofs & ~kTranslations, {.point = point});
       }
     }
   }
@@ -192,41 +171,40 @@ class StepWriter {
   Deck& deck_;
   RecipeNames& names_;
   const Step& step_;
-  std::string text_;
-  std::vector<std::string> factors_;
+  Recipe& recipe_;
+  recipe::Case sum_{.source = keys::Source(step_.where), .name = step_.name, .factors = {}};
   std::map<std::string, int> count_;
 };
 
 }  // namespace
 
-std::string support_text(const Support& support, RecipeNames& names) {
+void add_support(const Support& support, RecipeNames& names, recipe::File& file) {
   const NamedNodes named = names.node_indices(support.node_indices, set_name(support));
-  std::string out;
-  const DofMask shifts = support.dofs & kTranslations;
-  if (!named.node_set.empty() && shifts != 0)
-    out += hold("[[support]]\n", fmt::format("node_set = {}\n", toml_text(named.node_set)), shifts,
-                support);
-  for (const std::string& point : named.points)
-    out += hold("[[support]]\n", fmt::format("point = \"{}\"\n", point), support.dofs, support);
-  return out;
+  const auto add = [&](int dofs, const recipe::Selection& selection) {
+    file.supports.push_back({.source = keys::Source(support.where),
+                             .selection = selection,
+                             .directions = directions_of(static_cast<DofMask>(dofs)),
+                             .system = support.system});
+  };
+  const int shifts = support.dofs & kTranslations;
+  if (!named.node_set.empty() && shifts != 0) add(shifts, {.node_set = named.node_set});
+  for (const std::string& point : named.points) add(support.dofs, {.point = point});
 }
 
-std::string write_steps(Deck& deck, RecipeNames& names) {
-  std::string out;
+void add_steps(Deck& deck, RecipeNames& names, Recipe& recipe) {
   const Step* first = nullptr;
   for (const Step& step : deck.steps) {
     if (first == nullptr) {
       first = &step;
-      for (const Support& support : step.supports) out += support_text(support, names);
+      for (const Support& support : step.supports) add_support(support, names, recipe.file);
     }
-    if (!same_supports(*first, step)) {
-      out += fmt::format("\n# {} ({}) has other supports than {}: it needs a separate model\n",
-                         step.name, step.where, first->name);
-      continue;
-    }
-    out += StepWriter(deck, names, step).write();
+    if (same_supports(*first, step))
+      StepLoads(deck, names, step, recipe).add_all();
+    else
+      recipe.remarks.push_back(
+          fmt::format("{} ({}) has other supports than {}: it needs a separate model", step.name,
+                      step.where, first->name));
   }
-  return out;
 }
 
 }  // namespace clatter::mesh::deck

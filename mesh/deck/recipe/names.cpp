@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-
 #include "mesh/deck/node_sets.hpp"
 
 namespace clatter::mesh::deck {
@@ -61,39 +58,11 @@ std::string RecipeNames::point_on_node(NodeIndex node_index) {
   return name;
 }
 
-std::string toml_text(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      out += fmt::format("\\{}", c);
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      out += fmt::format("\\u{:04x}", static_cast<int>(static_cast<unsigned char>(c)));
-    else
-      out += c;
-  }
-  return out + '"';
-}
-
-std::string toml_key(std::string_view text) {
-  const bool bare = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return c < 0x80 && (std::isalnum(c) != 0 || c == '_' || c == '-');
-  });
-  return bare ? std::string(text) : toml_text(text);
-}
-
-std::string toml_list(const std::vector<double>& values) {
-  std::string out = "[";
-  for (size_t i = 0; i < values.size(); ++i)
-    out += fmt::format("{}{}", i == 0 ? "" : ", ", values[i]);
-  return out + "]";
-}
-
-std::string toml_directions(DofMask mask) {
-  constexpr const char* kNames[6] = {"x", "y", "z", "rx", "ry", "rz"};
-  std::string out = "[";
+std::vector<int> directions_of(DofMask mask) {
+  std::vector<int> directions;
   for (int d = 0; d < 6; ++d)
-    if ((mask >> d & 1) != 0) out += fmt::format("{}\"{}\"", out.size() > 1 ? ", " : "", kNames[d]);
-  return out + "]";
+    if ((mask >> d & 1) != 0) directions.push_back(d);
+  return directions;
 }
 
 }  // namespace clatter::mesh::deck

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Names of nodes for text.hpp: points, and node sets of the mesh that are made on demand.
+// Names of nodes for recipe.hpp: points, and node sets of the mesh that are made on demand.
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "mesh/deck/deck.hpp"
@@ -30,6 +29,10 @@ class RecipeNames {
   /// begins with `wish`.
   std::string node_set(std::vector<int32_t> nodes, const std::string& wish);
   NamedNodes node_indices(const std::vector<NodeIndex>& node_indices, const std::string& wish);
+  /// The name of a point, or of one on a mesh node.
+  std::string reference(NodeIndex node_index) {
+    return is_point(node_index) ? point(node_index) : point_on_node(node_index);
+  }
   /// The name of a point on a mesh node; records that it is needed.
   std::string point_on_node(NodeIndex node_index);
   const std::map<std::string, std::string>& points_on_nodes() const { return on_nodes_; }
@@ -43,13 +46,7 @@ class RecipeNames {
   std::map<std::string, std::string> on_nodes_;  // point -> node set
 };
 
-/// A TOML string, quoted and escaped.
-std::string toml_text(std::string_view text);
-/// A TOML key: bare where it may be.
-std::string toml_key(std::string_view text);
-/// "[1, 2.5, 0]", numbers that read back to the same double.
-std::string toml_list(const std::vector<double>& values);
-/// ["x", "rz"] of the mask.
-std::string toml_directions(DofMask mask);
+/// {0, 5} of the mask of x and rz.
+std::vector<int> directions_of(DofMask mask);
 
 }  // namespace clatter::mesh::deck

@@ -6,6 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/keys/describe.hpp"
 #include "core/keys/keys.hpp"
+#include "core/keys/member.hpp"
 
 namespace clatter::keys {
 namespace {
@@ -141,6 +142,13 @@ TEST(Keys, RowsOfEveryKindRefuse) {
   EXPECT_EQ(refusal_of_all("[seats.low]\nheight = 0"),
             "a.toml:2: seats.low.height: found 0, expected a number above 0");
   EXPECT_THAT(refusal_of_all("units = 'feet'"), HasSubstr("a.toml:1: units: found units 'feet'"));
+}
+
+TEST(Keys, TextsAreQuotedWhereTomlWouldMisreadThem) {
+  EXPECT_EQ(toml_text("a \"b\" \\c\td"), "\"a \\\"b\\\" \\\\c\\u0009d\"");
+  EXPECT_EQ(toml_key("steel_1"), "steel_1");
+  EXPECT_EQ(toml_key("St 37.2"), "\"St 37.2\"");
+  EXPECT_EQ(toml_key(""), "\"\"");
 }
 
 TEST(Keys, WhatIsWrittenIsReadBack) {

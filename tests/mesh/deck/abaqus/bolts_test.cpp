@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "mesh/deck/recipe/text.hpp"
+#include "mesh/deck/recipe/recipe.hpp"
 #include "tests/mesh/deck/abaqus/support.hpp"
 
 namespace clatter::mesh::deck {
@@ -69,7 +69,7 @@ TEST(AbaqusBolt, TheRecipeTightensItAlongItsDirection) {
                    "0., 0., 2.\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, 20.\n"
                    "*STEP\n*STATIC\n*CLOAD\n999, 1, 7.\n*TEMPERATURE\nNALL, 30.\n*END STEP\n");
   EXPECT_TRUE((deck.mesh.fields.at("temperature_1").array() == 30.0).all());  // of copies too
-  const std::string text = recipe_text(deck);
+  const std::string text = recipe_of(deck).text();
   EXPECT_NE(text.find("name = \"bolt_999\"\nslave = \"CUT\"\nmaster = \"CUT_other_side\"\n"
                       "direction = [0, 0, 1]\n"),
             std::string::npos)

@@ -2,7 +2,7 @@
 // Decks as Abaqus/CAE writes them, keywords that change nothing, contact, sets in constraints.
 #include <gmock/gmock.h>
 
-#include "mesh/deck/recipe/text.hpp"
+#include "mesh/deck/recipe/recipe.hpp"
 #include "mesh/deck/units.hpp"
 #include "tests/mesh/deck/abaqus/support.hpp"
 
@@ -69,7 +69,7 @@ TEST(AbaqusCae, WhatChangesNeitherKNorMIsPassedOverAndListed) {
             "output: *PREPRINT, *OUTPUT; title: *HEADING");
   EXPECT_TRUE(deck.ignored.empty());
   convert_units(deck, unit_system_named("mm-t-s", "units"));
-  EXPECT_THAT(recipe_text(deck),
+  EXPECT_THAT(recipe_of(deck).text(),
               HasSubstr("# [damping]\n# alpha = 1e-06\n# beta = 3\n"));  // alpha multiplies K here
 }
 

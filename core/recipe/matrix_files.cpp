@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "assembly/recipe/matrix_files.hpp"
+#include "core/recipe/tables.hpp"
 
-namespace clatter::assembly {
+namespace clatter::recipe {
 
 const keys::Keys<MatrixFiles>& matrix_files_keys() {
   static const keys::Keys<MatrixFiles> keys(
@@ -23,4 +23,4 @@ const keys::Keys<MatrixFiles>& matrix_files_keys() {
   return keys;
 }
 
-}  // namespace clatter::assembly
+}  // namespace clatter::recipe

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "assembly/recipe/resolve.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/keys/keys.hpp"
+
+namespace clatter::assembly {
+
+std::vector<fe::Material> Resolver::materials(const recipe::File& file) const {
+  const std::vector<std::string>& regions = names_.mesh.regions;
+  std::vector<bool> found(regions.size(), false);
+  std::vector<fe::Material> materials(regions.size());
+  for (const auto& [name, one] : file.materials) {
+    fe::MaterialTable table = one.material;
+    fe::finish(one.source, table);
+    for (const std::string& region : one.regions) {
+      const int32_t index = names_.region(one.source, "regions", region);
+      if (found[index])
+        one.source.fail("regions",
+                        fmt::format("found \"{}\" in two materials, expected one", region));
+      found[index] = true;
+      materials[index] = table.material;
+      if (!table.system.empty()) materials[index].axes = names_.axes(one.source, table.system);
+    }
+  }
+  for (size_t r = 0; r < found.size(); ++r)
+    if (!found[r])
+      file.source.fail("material",
+                       fmt::format("found none for region \"{}\", expected one for each of: {}",
+                                   regions[r], fmt::join(regions, ", ")));
+  return materials;
+}
+
+/// Mid-side nodes without a cell of their own need straight edges.
+void Resolver::check_hanging(const recipe::File& file) const {
+  const bool named = std::ranges::any_of(file.straight_edges, [](const auto& edges) {
+    return edges.node_set == mesh::kHangingMidSideNodes;
+  });
+  if (!named && names_.mesh.node_sets.contains(mesh::kHangingMidSideNodes))
+    file.source.fail("straight_edges",
+                     fmt::format("found none, the mesh has the node set \"{0}\": expected "
+                                 "[[straight_edges]] with node_set = \"{0}\"",
+                                 mesh::kHangingMidSideNodes));
+}
+
+namespace {
+
+template <class T>
+std::vector<T> joined(std::vector<T> first, const std::vector<T>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+}  // namespace
+
+Recipe Resolver::read(const Config& config) {
+  recipe::file_keys().table().check_known(config);
+  // A file without any material is refused with the names of the regions.
+  recipe::File empty;
+  empty.source = Source(config);
+  if (!config.has("material") && !config.has("matrices")) materials(empty);
+  return resolve(recipe::file_keys().read(config));
+}
+
+Recipe Resolver::resolve(const recipe::File& file) {
+  metre_ = file.metre;
+  for (const auto& [name, table] : file.systems) names_.systems[name] = table.axes;
+  materials_ = materials(file);
+  // In this order: later tables name earlier ones.
+  Recipe out;
+  out.materials = materials_;
+  out.mass = file.mass.form;
+  out.damping = file.damping;
+  out.points = each(file.points, &Resolver::point);
+  out.supports = each(file.supports, &Resolver::support);
+  out.couplings = each(file.couplings, &Resolver::coupling);
+  out.equations = each(file.equations, &Resolver::equation);
+  out.springs = each(file.springs, &Resolver::spring);
+  out.matrices = each(file.matrices, &Resolver::matrix);
+  out.straight_edges = each(file.straight_edges, &Resolver::straight_edges);
+  out.ties = each(file.ties, &Resolver::tie);
+  out.ties = joined(std::move(out.ties), each(file.bolts, &Resolver::bolt));
+  out.contacts = each(file.contacts, &Resolver::contact);
+  out.means = each(file.means, &Resolver::mean);
+  out.nodes = each(file.sensors, &Resolver::sensor);
+  out.nodes = joined(std::move(out.nodes), each(file.nodes, &Resolver::nodes));
+  out.point_masses = each(file.point_masses, &Resolver::point_mass);
+  out.heats = each(file.heats, &Resolver::heat);
+  out.loads = each(file.loads, &Resolver::load);
+  for (const recipe::Case& one : file.cases) out.cases[one.name] = factors(one);
+  check_hanging(file);
+  out.files = std::move(files_);
+  return out;
+}
+
+Recipe read_recipe(recipe::File file, const mesh::Mesh& mesh) {
+  recipe::file_keys().check_ranges(file);
+  for (auto& [name, system] : file.systems) fe::finish(system);
+  return Resolver(mesh).resolve(file);
+}
+
+Recipe read_recipe(const Config& config, const mesh::Mesh& mesh) {
+  return Resolver(mesh).read(config);
+}
+
+}  // namespace clatter::assembly

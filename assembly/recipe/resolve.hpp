@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// A fe.toml on its mesh, table by table: names are looked up and values checked that need the mesh.
+// resolve_joints.cpp, resolve_sets.cpp, resolve_heat.cpp and resolve_loads.cpp each have some
+// tables.
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "assembly/recipe/point_table.hpp"
+#include "assembly/recipe/recipe_names.hpp"
+
+namespace clatter::assembly {
+
+class Resolver {
+ public:
+  explicit Resolver(const mesh::Mesh& mesh) : names_{mesh} {}
+  Recipe read(const Config& config);
+  Recipe resolve(const recipe::File& file);
+
+ private:
+  using Source = keys::Source;
+
+  /// Each table of a list by its function, which gets the number from 1.
+  template <class Spec, class Table>
+  std::vector<Spec> each(const std::vector<Table>& tables,
+                         Spec (Resolver::*resolved)(const Table&, size_t)) {
+    std::vector<Spec> specs;
+    for (const Table& table : tables) specs.push_back((this->*resolved)(table, specs.size() + 1));
+    return specs;
+  }
+
+  std::vector<fe::Material> materials(const recipe::File& file) const;
+  void check_hanging(const recipe::File& file) const;
+  PointSpec point(const recipe::Point& point, size_t number);
+  SupportSpec support(const recipe::Support& support, size_t number);
+  CouplingSpec coupling(const recipe::Coupling& coupling, size_t number);
+  EquationSpec equation(const recipe::Equation& equation, size_t number);
+  SpringSpec spring(const recipe::Spring& spring, size_t number);
+  MatrixSpec matrix(const recipe::Matrix& matrix, size_t number);
+  StraightEdgesSpec straight_edges(const recipe::StraightEdges& edges, size_t number);
+  TieSpec tie(const recipe::Tie& tie, size_t number);
+  TieSpec bolt(const recipe::Tie& tie, size_t number);
+  ContactSpec contact(const recipe::Contact& contact, size_t number);
+  MeanSpec mean(const recipe::Mean& mean, size_t number);
+  NodeSpec sensor(const recipe::Sensor& sensor, size_t number);
+  NodeSpec nodes(const recipe::Nodes& nodes, size_t number);
+  PointMassSpec point_mass(const recipe::PointMass& mass, size_t number);
+  HeatSpec heat(const recipe::Heat& heat, size_t number);
+  LoadSpec load(const recipe::Load& load, size_t number);
+
+  /// Members of a table and of its terms; `all`: directions of those without any.
+  std::vector<TermSpec> terms_of(const Source& table, const std::string& what,
+                                 const recipe::Members& own,
+                                 const std::vector<recipe::Members>& given,
+                                 const std::vector<int>& all) const;
+  /// The terms of an equation, spring or matrix, which is `what` in messages.
+  std::vector<EquationSpec::Term> terms_of(const Source& table, const std::string& what,
+                                           const std::vector<recipe::Term>& given) const;
+  TieSpec tied(const recipe::Tie& tie, const std::string& name, bool bolt);
+  /// The columns of a file at the nodes of the mesh, or of the surface `on` (n_nodes rows, others
+  /// 0); says how far these nodes are from the points, and how far the points are from linear fits.
+  /// A table that is farther from the part than the part is large is refused.
+  RowMatrix values_of_table(const Source& table, const std::filesystem::path& path,
+                            const std::vector<TableColumn>& columns, const std::string& on);
+  HeatSpec::Film film(const recipe::Heat::Film& film);
+  HeatSpec::Flux flux(const recipe::Heat::Flux& flux);
+  HeatSpec::Source source(const recipe::Heat::HeatSource& source) const;
+  void finish_temperature(LoadSpec& load);
+  Eigen::VectorXd rise_of_regions(const LoadSpec& load) const;
+  void check_field(const Source& table, const std::string& name, Eigen::Index columns) const;
+  std::map<std::string, double> factors(const recipe::Case& sum) const;
+
+  RecipeNames names_;
+  double metre_ = 1.0;                        // of CSV files [m]
+  std::vector<std::filesystem::path> files_;  // read in addition
+  std::vector<fe::Material> materials_;       // of the regions
+};
+
+}  // namespace clatter::assembly
