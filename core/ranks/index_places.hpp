@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Places of some indices of a long range.
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
