@@ -13,6 +13,8 @@ NAVIGATION = {
     "": [("README.md", "clatter")],
     "Programs": [("mesh/README.md", "mesh"), ("mesh/deck/README.md", "mesh/deck"), ("assembly/README.md", "assembly"),
                  ("modal/README.md", "modal"), ("condense/README.md", "condense"), ("dynamics/README.md", "dynamics"),
+                 ("docs/dynamics/theory.md", "dynamics: theory"), ("docs/dynamics/methods.md", "dynamics: methods"),
+                 ("docs/dynamics/scene.md", "dynamics: the scene"), ("docs/dynamics/results.md", "dynamics: results"),
                  ("dynamics/film/README.md", "dynamics/film"), ("dynamics/profile/README.md", "dynamics/profile"), ("dynamics/chain/README.md", "dynamics/chain"),
                  ("dynamics/hydraulic/README.md", "dynamics/hydraulic"), ("dynamics/ring/README.md", "dynamics/ring"),
                  ("dynamics/shaft/README.md", "dynamics/shaft"), ("dynamics/crank/README.md", "dynamics/crank"),
