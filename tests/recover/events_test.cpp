@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/log.hpp"
+#include "recover/sound/wav.hpp"
 #include "sound_run.hpp"
 #include "tests/refusal.hpp"
 
@@ -75,6 +76,18 @@ TEST_F(Event, EnergyDoesNotDependOnTheWindowAndPowerDoes) {
   EXPECT_GT(narrow, 0.0);
   EXPECT_NEAR(sound_of(0.03, 0.09), narrow, 0.01);
   EXPECT_NEAR(sound_of(0.0, 0.12), narrow, 0.01);
+}
+
+TEST_F(Event, OneWindowIsHeardWhereThereIsNoCycle) {
+  knock_at(0.06);
+  recovered(seconds(0.05, 0.07));
+  write_wav(folder_ / "field.h5", "plus_y", {.seconds = 0.1}, folder_ / "knock.wav");
+  EXPECT_EQ(std::filesystem::file_size(folder_ / "knock.wav"), 44u + 2u * 4800u);
+  recovered(seconds(0.0, 0.12, "segment_s = 0.02\n"));
+  test::expect_parts(test::refusal_of([&] {
+                       write_wav(folder_ / "field.h5", "plus_y", {}, folder_ / "knock.wav");
+                     }),
+                     {"field.h5: analysis: found no microphones", "a window in one segment"});
 }
 
 TEST_F(Event, WhatIsTaperedOrRepeatsHasNoEnergy) {
