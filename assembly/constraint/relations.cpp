@@ -14,8 +14,8 @@
 #include "assembly/constraint/coupling_members.hpp"
 #include "assembly/constraint/tie_relations.hpp"
 #include "core/base/error.hpp"
+#include "core/base/near_position.hpp"
 #include "core/mesh/mid_side_nodes.hpp"
-#include "core/mesh/near_position.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -53,9 +53,9 @@ int32_t nearest_node(const mesh::Mesh& mesh, const NodeSpec& spec,
       nodes.begin(), nodes.end(), [&](int32_t a, int32_t b) { return distance(a) < distance(b); });
   double size = 0.0;
   for (const mesh::CellBlock& block : mesh.cells)
-    size = std::max(size, mesh::size_around(mesh.nodes, block.nodes, nearest));
-  mesh::require_near(fmt::format("{}: near: the nearest node", spec.where), *spec.near,
-                     mesh.nodes.row(nearest).transpose(), size, "length_unit");
+    size = std::max(size, size_around(mesh.nodes, block.nodes, nearest));
+  require_near(fmt::format("{}: near: the nearest node", spec.where), *spec.near,
+               mesh.nodes.row(nearest).transpose(), size, "length_unit");
   return nearest;
 }
 

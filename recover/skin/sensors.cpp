@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/base/error.hpp"
-#include "core/mesh/near_position.hpp"
+#include "core/base/near_position.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -23,10 +23,9 @@ Sensor from_point(const SensorRule& rule, const rom::Skin& skin, const rom::Skin
                   const SkinGeometry& geometry) {
   Eigen::Index node;
   (skin.nodes.rowwise() - rule.position->transpose()).rowwise().squaredNorm().minCoeff(&node);
-  mesh::require_near(fmt::format("sensor '{}': the nearest node of the skin", rule.name),
-                     *rule.position, skin.nodes.row(node).transpose(),
-                     mesh::size_around(skin.nodes, skin.triangles, static_cast<int32_t>(node)),
-                     "metres");
+  require_near(fmt::format("sensor '{}': the nearest node of the skin", rule.name), *rule.position,
+               skin.nodes.row(node).transpose(),
+               size_around(skin.nodes, skin.triangles, static_cast<int32_t>(node)), "metres");
   std::vector<Eigen::Vector3d> directions;
   Sensor sensor{.name = rule.name, .kind = "skin"};
   if (rule.direction) {

@@ -6,7 +6,7 @@
 
 #include "core/base/matrix.hpp"
 
-namespace clatter::mesh {
+namespace clatter {
 
 /// The largest diagonal of the bounding boxes of those cells or faces that have `node` [m]; 0 when
 /// none has.
@@ -22,4 +22,4 @@ double size_around(const RowMatrix& nodes, const IndexMatrix& cells, int32_t nod
 void require_near(const std::string& what, const Eigen::Vector3d& requested,
                   const Eigen::Vector3d& found, double size, const std::string& unit);
 
-}  // namespace clatter::mesh
+}  // namespace clatter

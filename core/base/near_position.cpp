@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/mesh/near_position.hpp"
+#include "core/base/near_position.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "core/base/log.hpp"
 #include "core/base/units.hpp"
 
-namespace clatter::mesh {
+namespace clatter {
 
 double size_around(const RowMatrix& nodes, const IndexMatrix& cells, int32_t node) {
   double size = 0.0;
@@ -43,4 +43,4 @@ void require_near(const std::string& what, const Eigen::Vector3d& requested,
                                size / kMilli, other));
 }
 
-}  // namespace clatter::mesh
+}  // namespace clatter
