@@ -2,8 +2,8 @@
 """Order analysis: amplitudes of a signal over the crank angle, in bands half an engine order wide."""
 import numpy as np
 
-from .artefact import BadArtefact, dataset, text
-from .chains import CYCLE_DEG, complete_cycles, crank_angle
+from clatter.artefact import BadArtefact, dataset, text
+from clatter.chains import CYCLE_DEG, complete_cycles, crank_angle
 from .weighting import a_weight
 
 # References of levels in dB (ISO 1683); quantities of other units are shown as they are. A power is kept as its root, "W^0.5", whose

@@ -5,7 +5,7 @@ import pathlib
 import numpy as np
 import scipy.linalg
 
-from ..artefact import dataset, open_artefact, text
+from clatter.artefact import dataset, open_artefact, text
 from . import shapes, skin
 from .folder import made_with
 

@@ -23,9 +23,12 @@ import dataclasses
 
 import numpy as np
 
-from .. import fields, orders, slap, slap_rows
-from ..artefact import BadArtefact, dataset, open_artefact, text, totals
-from ..histories import crank_angle, has
+from clatter import fields
+from clatter.artefact import BadArtefact, dataset, open_artefact, text, totals
+from clatter.histories import crank_angle, has
+from clatter.modes import Modes
+from clatter.rom import Rom
+from .. import orders, slap, slap_rows
 from ..keys.study_keys import TAKEN
 
 POINTS = 1440
@@ -109,12 +112,7 @@ class Extractor:
 
 def frequency(file, number):
     wanted = number
-    if "frequency_hz" in file:
-        found = dataset(file, "frequency_hz")
-    else:
-        from scipy.linalg import eigh
-        squared = eigh(dataset(file, "K_rr"), dataset(file, "M_rr"), eigvals_only=True)
-        found = np.sqrt(np.maximum(squared, 0.0)) / (2.0 * np.pi)
+    found = (Modes(file) if "frequency_hz" in file else Rom(file).modes()).frequency_hz
     if not 1 <= wanted <= len(found):
         raise BadArtefact(f"{file.filename}: found {len(found)} modes, expected mode {wanted}")
     limit = float(file["certificate"].attrs.get("accurate_to_hz", np.inf)) if "certificate" in file else np.inf
