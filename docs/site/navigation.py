@@ -22,6 +22,7 @@ NAVIGATION = {
                 ("samples/timing_drive/README.md", "timing_drive"), ("samples/truck_diesel/README.md", "truck_diesel")],
     "Keys of TOML files": KEYS,
     "Documents": [("docs/design.md", "Design"), ("docs/effects.md", "Effects"), ("docs/formats.md", "File formats"),
+                  ("docs/python.md", "Python"), ("docs/matlab.md", "MATLAB"),
                   ("docs/cards.md", "Cards and keywords"),
                   ("docs/accuracy.md", "Accuracy"), ("docs/validation.md", "Validation"), ("docs/hard-cases.md", "Hard cases"),
                   ("docs/hard-results.md", "Hard cases: results"),

@@ -128,11 +128,11 @@ class Artefact:
 
     def attribute(self, name):
         """An attribute of the file, SI units: text, or a number."""
-        self.check(name in self.file.attrs, f"attribute {name}: missing")
+        self._check(name in self.file.attrs, f"attribute {name}: missing")
         value = self.file.attrs[name]
         return value if isinstance(value, np.number) else text(value)
 
-    def check(self, condition, otherwise) -> None:
+    def _check(self, condition, otherwise) -> None:
         """Refused with the file and a sentence where a condition does not hold."""
         if not condition:
             raise BadArtefact(f"{self.path}: {otherwise}")

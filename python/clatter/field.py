@@ -56,7 +56,7 @@ class Field(Artefact):
 
     def _sensor(self, name, quantity, path):
         """Columns of a sensor's dataset, those of a set or the one of a label."""
-        self.check(quantity in QUANTITIES, f"found {quantity}, expected {', '.join(QUANTITIES)}")
+        self._check(quantity in QUANTITIES, f"found {quantity}, expected {', '.join(QUANTITIES)}")
         owner, within = pick(self.file, self.sensors, name, f"{self._at}/sensors")
         values = self._read(f"sensors/{owner}/{path}")
         return values[:, within[0]] if name not in self.sensors else values

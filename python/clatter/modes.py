@@ -38,7 +38,7 @@ class Modes(Artefact):
     def shape(self, number) -> np.ndarray:
         """Displacements of the nodes in a mode, n x 3, unit modal mass [1/sqrt(kg)]; modes are numbered from 1."""
         count = self.file["shapes"].shape[0]
-        self.check(1 <= number <= count, f"found {count} modes, expected mode {number}")
+        self._check(1 <= number <= count, f"found {count} modes, expected mode {number}")
         return self.file["shapes"][number - 1]
 
     @property

@@ -79,12 +79,12 @@ class Run(Artefact):
         if f"history/{column}" in self.file:
             return dataset(self.file, f"history/{column}")
         body, point, coordinate = column.partition(".")
-        self.check(point and body in self.bodies, f"found no column {column}, expected one of {', '.join(list(self.units)[:12]) or 'none'}")
+        self._check(point and body in self.bodies, f"found no column {column}, expected one of {', '.join(list(self.units)[:12]) or 'none'}")
         return self.motion(body, coordinate)[:, 0]
 
     def rom(self, body) -> Rom:
         """The reduced model of a body, from the path of the scene or beside the run. Refused where it is missing or has changed since."""
-        self.check(body in self.bodies, f"bodies: found {', '.join(self.bodies)}, expected {body}")
+        self._check(body in self.bodies, f"bodies: found {', '.join(self.bodies)}, expected {body}")
         return self._roms[body]
 
     @functools.cached_property
@@ -95,8 +95,8 @@ class Run(Artefact):
         attributes = self.file[f"bodies/{body}"].attrs
         name = text(attributes["rom"])
         paths = [path for path in (self.path.parent / name, self.path.parent / name.rpartition("/")[2]) if path.exists()]
-        self.check(paths, f"bodies/{body}: {name} is missing: it names the coordinates")
-        self.check(sha256(paths[0]) == text(attributes["rom_sha256"]), f"bodies/{body}: {name} has changed since the run: repeat the run")
+        self._check(paths, f"bodies/{body}: {name} is missing: it names the coordinates")
+        self._check(sha256(paths[0]) == text(attributes["rom_sha256"]), f"bodies/{body}: {name} has changed since the run: repeat the run")
         return Rom(paths[0])
 
     def q(self, body) -> np.ndarray:
@@ -114,7 +114,7 @@ class Run(Artefact):
     def motion(self, body, name, quantity="displacement") -> np.ndarray:
         """Motion of a set ("tip") or a coordinate ("tip.z") of a body, n_t x c, in the frame of its attribute `frame`: displacement [m],
         velocity [m/s] or acceleration [m/s2], of rotations with rad."""
-        self.check(quantity in MOTIONS, f"motion: found {quantity}, expected {', '.join(MOTIONS)}")
+        self._check(quantity in MOTIONS, f"motion: found {quantity}, expected {', '.join(MOTIONS)}")
         rows = self.rom(body).T(name)
         return dataset(self.file, f"bodies/{body}/{MOTIONS[quantity][0]}") @ rows.T
 

@@ -22,7 +22,7 @@ class Sound(Artefact):
     def _weights(self, hz):
         """{number of a frequency: weight} of the polynomial through six neighbours at hz, as clatter-recover takes them."""
         grid = self.frequency_hz
-        self.check(0.0 < hz <= grid[-1] * (1.0 + 1e-9), f"found {hz:g} Hz, expected a positive frequency up to {grid[-1]:g} Hz, the limit of the acoustic skin")
+        self._check(0.0 < hz <= grid[-1] * (1.0 + 1e-9), f"found {hz:g} Hz, expected a positive frequency up to {grid[-1]:g} Hz, the limit of the acoustic skin")
         above = int(np.searchsorted(grid, hz))
         if above == 0:
             return {0: 1.0}
