@@ -28,8 +28,9 @@ class MassProperties(typing.NamedTuple):
 
 def read_set(file, path):
     """The Set of a group."""
-    return Set(text(file[path].attrs.get("kind", "")), [text(one) for one in dataset(file, f"{path}/labels")], dataset(file, f"{path}/position"),
-               dataset(file, f"{path}/direction"), dataset(file, f"{path}/is_rotation") != 0)
+    position, direction, turns = (dataset(file, f"{path}/{name}") for name in ("position", "direction", "is_rotation"))
+    labels = [text(one) for one in dataset(file, f"{path}/labels")]
+    return Set(text(file[path].attrs.get("kind", "")), labels, position, direction, turns != 0)
 
 
 def read_sets(file, path="sets"):

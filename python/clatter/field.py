@@ -62,7 +62,8 @@ class Field(Artefact):
         return values[:, within[0]] if name not in self.sensors else values
 
     def history(self, name, quantity="velocity") -> np.ndarray:
-        """Motion of a sensor, n_t x c, or of one of its coordinates ("sensor.z"), n_t: displacement [m], velocity [m/s] or acceleration [m/s2]."""
+        """Motion of a sensor, n_t x c, or of one of its coordinates ("sensor.z"), n_t: displacement [m], velocity [m/s] or acceleration
+        [m/s2]."""
         return self._sensor(name, quantity, quantity)
 
     def spectrum(self, name, quantity="velocity") -> np.ndarray:
@@ -99,7 +100,7 @@ class Field(Artefact):
 
     @property
     def sound_power(self) -> np.ndarray:
-        """Sound power in each line, n_l [W], of boundary elements up to `sound_to_hz`, above it of the ERP. Refused without a sound file."""
+        """Sound power in each line, n_l [W], of boundary elements up to `sound_to_hz`, above it the ERP. Refused without a sound file."""
         return self._read("sound/power")
 
     @property
@@ -109,8 +110,9 @@ class Field(Artefact):
 
     def level_dba(self, panel=None) -> float:
         """A-weighted level [dB re 1 pW] of the ERP of a panel; without a name of the sound power, or the ERP where there is none."""
-        where = fields.radiated(self.file, self._at).dba if panel is None else self.file[f"{self._at}/{self._panel(panel)}"].attrs["erp_dba"]
-        return float(where)
+        if panel is None:
+            return fields.radiated(self.file, self._at).dba
+        return float(self.file[f"{self._at}/{self._panel(panel)}"].attrs["erp_dba"])
 
     def third_octaves(self, panel=None) -> tuple:
         """(mid-bands, b [Hz]; A-weighted levels, b [dB re 1 pW]) of the same power."""

@@ -43,7 +43,8 @@ class Rom(Artefact):
 
     @functools.cached_property
     def D(self) -> np.ndarray:
-        """Damping matrix, r x r, symmetric [N s/m]: alpha K + beta M, and M Phi diag(2 zeta omega) Phi^T M with a table of modal damping."""
+        """Damping matrix, r x r, symmetric [N s/m]: alpha K + beta M, with a table of modal damping also
+        M Phi diag(2 zeta omega) Phi^T M."""
         rayleigh = self.attribute("alpha") * self.K + self.attribute("beta") * self.M
         if "modal_damping" not in self.file:
             return rayleigh
@@ -131,7 +132,8 @@ class Rom(Artefact):
             raise BadArtefact(f"frf: quantity: found {quantity}, expected {', '.join(POWERS)}")
         omega = 2.0 * np.pi * np.atleast_1d(np.asarray(hz, float))
         if self.rigid_modes and np.any(omega == 0.0):
-            raise BadArtefact(f"{self.path}: frf: found 0 Hz, expected another frequency: nothing holds the part's {self.rigid_modes} rigid motions")
+            raise BadArtefact(f"{self.path}: frf: found 0 Hz, expected another frequency: nothing holds the part's "
+                              f"{self.rigid_modes} rigid motions")
         limit = self.certificate.get("accurate_to_hz", self.attribute("valid_to_hz"))
         if len(omega) and omega.max() > 2.0 * np.pi * limit * (1.0 + 1e-9):
             warnings.warn(f"{self.path}: {omega.max() / (2.0 * np.pi):g} Hz: its modes are accurate to {limit:g} Hz", stacklevel=2)
@@ -150,8 +152,8 @@ class Rom(Artefact):
         return int(np.count_nonzero(hz**2 <= ROUNDING * hz[-1] ** 2))
 
     def static(self, load) -> np.ndarray:
-        """Static response q, r [m], of K q = f: T(name) @ q are the displacements [m] of a set. load: the name of a load, {name: factor}, or a vector f, r [N].
-        Refused for a part that nothing holds."""
+        """Static response q, r [m], of K q = f: T(name) @ q are the displacements [m] of a set. load: the name of a load,
+        {name: factor}, or a vector f, r [N]. Refused for a part that nothing holds."""
         if self.rigid_modes:
             raise BadArtefact(f"{self.path}: static: found {self.rigid_modes} rigid motions, expected a part that supports hold")
         factors = load if isinstance(load, dict) else {load: 1.0} if isinstance(load, str) else None

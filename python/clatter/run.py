@@ -79,7 +79,8 @@ class Run(Artefact):
         if f"history/{column}" in self.file:
             return dataset(self.file, f"history/{column}")
         body, point, coordinate = column.partition(".")
-        self._check(point and body in self.bodies, f"found no column {column}, expected one of {', '.join(list(self.units)[:12]) or 'none'}")
+        known = point and body in self.bodies
+        self._check(known, f"found no column {column}, expected one of {', '.join(list(self.units)[:12]) or 'none'}")
         return self.motion(body, coordinate)[:, 0]
 
     def rom(self, body) -> Rom:

@@ -22,7 +22,8 @@ class Sound(Artefact):
     def _weights(self, hz):
         """{number of a frequency: weight} of the polynomial through six neighbours at hz, as clatter-recover takes them."""
         grid = self.frequency_hz
-        self._check(0.0 < hz <= grid[-1] * (1.0 + 1e-9), f"found {hz:g} Hz, expected a positive frequency up to {grid[-1]:g} Hz, the limit of the acoustic skin")
+        self._check(0.0 < hz <= grid[-1] * (1.0 + 1e-9),
+                    f"found {hz:g} Hz, expected a positive frequency up to {grid[-1]:g} Hz, the limit of the acoustic skin")
         above = int(np.searchsorted(grid, hz))
         if above == 0:
             return {0: 1.0}
@@ -31,7 +32,8 @@ class Sound(Artefact):
 
     def R(self, hz) -> np.ndarray:
         """Resistance at a frequency [Hz], r x r, symmetric [N s/m]: R / f^2 is interpolated. Refused above the last frequency."""
-        return sum(weight * (hz / self.frequency_hz[i]) ** 2 * dataset(self.file, f"resistance/{i:05d}") for i, weight in self._weights(hz).items())
+        return sum(weight * (hz / self.frequency_hz[i]) ** 2 * dataset(self.file, f"resistance/{i:05d}")
+                   for i, weight in self._weights(hz).items())
 
     def H(self, hz) -> np.ndarray:
         """Pressures of the microphones per reduced velocity at a frequency [Hz], n_m x r, complex [Pa s/m]."""

@@ -153,9 +153,10 @@ class Models(stages.PipelineTest):
         rom = self.open("beam.rom.h5")
         for call, said in ((lambda: rom.T("top"), r"beam.rom.h5: sets: found no top, expected one of sensor_tip, tip, or sensor_tip.x, .*"),
                            (lambda: rom.static("gas"), r"beam.rom.h5: loads: found no gas, expected one of tip_force"),
-                           (lambda: rom.frf("tip", "tip", 10.0, "jerk"), "frf: quantity: found jerk, expected displacement, velocity, acceleration"),
+                           (lambda: rom.frf("tip", "tip", 10.0, "jerk"), "frf: quantity: found jerk, expected displacement, velocity, acc"),
                            (lambda: clatter.Rom(self.folder / "beam.mesh.h5"), "schema: found clatter/mesh/2, expected clatter/rom/1"),
-                           (lambda: clatter.open(self.folder / "beam.mesh.h5"), "schema: found clatter/mesh/2, expected that of fe, modes, rom, run, field, sound"),
+                           (lambda: clatter.open(self.folder / "beam.mesh.h5"),
+                            "schema: found clatter/mesh/2, expected that of fe, modes, rom, run, field, sound"),
                            (lambda: clatter.open(self.folder / "beam.rom.toml"), "not a readable HDF5 file"),
                            (lambda: clatter.open(self.folder / "gone.rom.h5"), "gone.rom.h5: no such file"),
                            (lambda: self.open("beam.modes.h5").shape(7), "found 6 modes, expected mode 7")):

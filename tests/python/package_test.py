@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The package clatter: documentation of what it exports, what it loads, and its version."""
 import inspect
+import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
+import tempfile
 import tomllib
 import unittest
 
@@ -75,7 +78,8 @@ class Package(unittest.TestCase):
         project = tomllib.loads((SOURCE / "pyproject.toml").read_text())
         programs = re.search(r"project\(clatter VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text())[1]
         self.assertEqual(project["project"]["version"], programs)
-        self.assertEqual({path.stem for path in (SOURCE / "python").iterdir() if path.is_dir() and not path.name.endswith("egg-info")}, {"clatter"})
+        packages = [path.parent.name for path in (SOURCE / "python").glob("*/__init__.py")]
+        self.assertEqual(project["tool"]["setuptools"]["packages"], packages)
 
     def test_numpy_and_h5py_are_all_that_the_package_needs(self):
         allowed = {"numpy", "h5py", "scipy", "pandas"} | set(sys.stdlib_module_names)
@@ -85,6 +89,49 @@ class Package(unittest.TestCase):
                 if (found := re.match(r"( *)(?:from|import) (\w+)", line)):
                     self.assertIn(found[2], allowed, f"{path.name}: {line}")
                     self.assertTrue(found[2] not in optional or found[1], f"{path.name}: {line}: found it required, expected it in try")
+
+
+INSTALLING = """cmake_minimum_required(VERSION 3.25)
+project(installing LANGUAGES NONE)
+include(GNUInstallDirs)
+add_subdirectory({source}/python python)
+install(DIRECTORY {source}/tools/clatter_tools DESTINATION ${{CMAKE_INSTALL_DATADIR}}/clatter FILES_MATCHING PATTERN "*.py")
+"""
+
+
+@unittest.skipIf(shutil.which("cmake") is None, "cmake is not installed")
+class Installation(unittest.TestCase):
+    def install(self, prefix):
+        """The root below which a project with this package was installed with that prefix."""
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        folder = pathlib.Path(scratch.name)
+        (folder / "CMakeLists.txt").write_text(INSTALLING.format(source=SOURCE))
+        for arguments in (["-S", folder, "-B", folder / "build", f"-DCMAKE_INSTALL_PREFIX={prefix}"], ["--install", folder / "build"]):
+            done = subprocess.run(["cmake", *arguments], env={**os.environ, "DESTDIR": str(folder / "root")}, capture_output=True, text=True,
+                                  check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        return folder / "root"
+
+    def imported(self, path, code="import clatter"):
+        """The file of the package that Python finds with one folder in its path."""
+        done = subprocess.run([sys.executable, "-B", "-c", f"{code}; print(clatter.Rom.__module__, clatter.__file__)"], cwd="/",
+                              env={"PYTHONPATH": str(path)}, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout.split()[1]
+
+    def test_python_finds_the_package_of_an_installation_and_so_do_the_tools(self):
+        root = self.install("/usr")
+        own = root / "usr/share/clatter"
+        self.assertEqual(self.imported(own, "import clatter_tools.report, clatter"), f"{own}/clatter/__init__.py")
+        link = root / "usr/lib/python3/dist-packages/clatter"
+        self.assertEqual(link.resolve(), (own / "clatter").resolve())
+        self.assertEqual(self.imported(link.parent), f"{link}/__init__.py")
+
+    def test_below_another_prefix_the_link_is_in_the_folder_of_the_release_of_python(self):
+        root = self.install("/usr/local")
+        found = list(root.glob("usr/local/lib/python3.*/dist-packages/clatter"))
+        self.assertEqual([one.resolve() for one in found], [(root / "usr/local/share/clatter/clatter").resolve()])
 
 
 if __name__ == "__main__":

@@ -20,7 +20,8 @@ class Programs(stages.PipelineTest):
             self.assertEqual(found["frequency_hz"], list(modes.frequency_hz))
             self.assertEqual(modes.inputs, [("beam.rom.h5", "unchanged")])
             self.assertGreater(modes.seconds, 0.0)
-        found = pipeline.run("condense", "beam.fe.h5", folder=self.folder, config="beam.rom.toml", output="plain.rom.h5", no_certificate=True)
+        found = pipeline.run("condense", "beam.fe.h5", folder=self.folder, config="beam.rom.toml", output="plain.rom.h5",
+                             no_certificate=True)
         self.assertEqual(found["certified"], 0)
         with clatter.open(self.folder / "plain.rom.h5") as rom:
             self.assertIn("fmax_hz = 4000", rom.configuration)
@@ -47,7 +48,7 @@ class Programs(stages.PipelineTest):
     def test_a_sweep_runs_all_combinations_and_repeats_nothing(self):
         # A Makefile whose rules make the reduced model; that of the sample includes the rules of the source tree.
         (self.folder / "Makefile").write_text(f"include {stages.SOURCE / 'tools/clatter.mk'}\nstep.run.h5: beam.rom.h5\n")
-        (self.folder / "short.field.toml").write_text('body = "beam"\ncycle = false\n[[window]]\nname = "all"\nfrom_s = 0.0\nto_s = 0.002\n')
+        (self.folder / "short.field.toml").write_text('body = "beam"\ncycle = false\n[[window]]\nname = "all"\nfrom_s = 0\nto_s = 2e-3\n')
         values = {"time.end_s": [0.002, 0.004]}
         found = pipeline.sweep("step.run.toml", values, folder=self.folder, field="short.field.toml")
         self.assertEqual(sorted(found), ["0.002", "0.004"])

@@ -100,7 +100,8 @@ class Results(stages.PipelineTest):
 
     def test_a_reduced_model_that_changed_or_is_missing_names_no_columns(self):
         run = self.open("step.run.h5")
-        for column, said in (("beam.top.z", "beam.rom.h5: sets: found no top.z"), ("bean.tip.z", r"found no column bean.tip.z, expected one of beam.sensor_tip.x"),
+        for column, said in (("beam.top.z", "beam.rom.h5: sets: found no top.z"),
+                             ("bean.tip.z", "found no column bean.tip.z, expected one of beam.sensor_tip.x"),
                              ("side_force", "found no column side_force")):
             with self.assertRaisesRegex(clatter.Refused, said):
                 run[column]
@@ -115,7 +116,8 @@ class Results(stages.PipelineTest):
 
     def test_powers_of_a_field_add_up_to_its_levels(self):
         field = self.open("step.field.h5")
-        self.assertEqual((field.body, field.pieces, field.has_sound, field.sound_to_hz, field.microphones), ("beam", ["swing"], False, 0.0, []))
+        self.assertEqual((field.body, field.pieces, field.has_sound, field.sound_to_hz, field.microphones),
+                         ("beam", ["swing"], False, 0.0, []))
         with h5py.File(self.folder / "step.field.h5") as file:
             at = file["analysis/swing/panels/top"]
             # rho c S <v^2>: the definition of the ERP.
@@ -136,16 +138,15 @@ class Results(stages.PipelineTest):
     def test_a_sensor_of_a_field_moves_as_in_the_run(self):
         field, run = self.open("step.field.h5"), self.open("step.run.h5")
         for quantity in ("displacement", "velocity"):
-            np.testing.assert_allclose(field.history("sensor_tip", quantity), run.motion("beam", "sensor_tip", quantity), rtol=1e-6, atol=1e-12)
+            np.testing.assert_allclose(field.history("sensor_tip", quantity), run.motion("beam", "sensor_tip", quantity), atol=1e-12)
         spectrum = field.spectrum("sensor_tip.z", "velocity")
         self.assertEqual(field.spectrum("sensor_tip").shape, (len(field.frequency_hz), 3))
         np.testing.assert_allclose(field.power_spectrum("sensor_tip.z"), 0.5 * abs(spectrum) ** 2)
         # The first mode rules: its line is the nearest one to its frequency.
         peak = field.frequency_hz[np.argmax(abs(spectrum))]
         self.assertAlmostEqual(peak, run.rom("beam").modes(1).frequency_hz[0], delta=0.51 * (field.frequency_hz[1] - field.frequency_hz[0]))
-        for name, said in (("tip", "swing/sensors: found no tip, expected one of sensor_tip"),):
-            with self.assertRaisesRegex(clatter.Refused, said):
-                field.history(name)
+        with self.assertRaisesRegex(clatter.Refused, "swing/sensors: found no tip, expected one of sensor_tip"):
+            field.history("tip")
         with self.assertRaisesRegex(clatter.Refused, "analysis: found swing, expected cycle"):
             self.open("step.field.h5", "cycle")
 
@@ -160,8 +161,8 @@ class Results(stages.PipelineTest):
         # A Hann window gives the power of a steady signal 1.5 times; what is left is the run's time step in rounding.
         power = [sound.power(v[k], line) / 1.5 for k, line in zip(own, field.frequency_hz[lines])]
         np.testing.assert_allclose(field.sound_power[lines], power, rtol=1e-3)
-        self.assertAlmostEqual(10.0 * np.log10(field.sound_power[field.frequency_hz >= 20.0].sum() / 1e-12), field.file["analysis/swing/sound"].attrs["power_db"],
-                               delta=0.01)
+        level = 10.0 * np.log10(field.sound_power[field.frequency_hz >= 20.0].sum() / 1e-12)
+        self.assertAlmostEqual(level, field.file["analysis/swing/sound"].attrs["power_db"], delta=0.01)
         row = sound.microphones.index("top")
         pressure = [sound.H(line)[row] @ v[k] for k, line in zip(own, field.frequency_hz[lines])]
         np.testing.assert_allclose(field.pressure("top")[lines], pressure, rtol=2e-3)

@@ -24,7 +24,7 @@ import dataclasses
 import numpy as np
 
 from clatter import fields
-from clatter.artefact import BadArtefact, dataset, open_artefact, text, totals
+from clatter.artefact import BadArtefact, dataset, open_artefact, totals
 from clatter.histories import crank_angle, has
 from clatter.modes import Modes
 from clatter.rom import Rom
@@ -122,13 +122,9 @@ def frequency(file, number):
 
 def line(file, sensor, at_hz):
     at = fields.piece(file, "cycle", *fields.pieces(file))
-    for name in fields.sensor_names(file, at):
-        labels = [text(one) for one in dataset(file, f"{at}/sensors/{name}/labels")]
-        if sensor in labels:
-            hz = dataset(file, f"{at}/frequency_hz")
-            row, column = int(np.argmin(np.abs(hz - at_hz))), labels.index(sensor)
-            return np.hypot(*(dataset(file, f"{at}/sensors/{name}/spectrum/acceleration_{part}")[row, column] for part in ("re", "im")))
-    raise BadArtefact(f"{file.filename}: {at}/sensors: found no channel {sensor}")
+    path, column = fields.labelled(file, at, sensor)
+    row = int(np.argmin(np.abs(dataset(file, f"{at}/frequency_hz") - at_hz)))
+    return np.hypot(*(dataset(file, f"{path}/spectrum/acceleration_{part}")[row, column] for part in ("re", "im")))
 
 
 def liner_signal(file, to_hz):
@@ -161,11 +157,8 @@ def third_octaves(file, of, from_hz, to_hz):
     at = fields.piece(file, "cycle", *fields.pieces(file))
     kind, _, name = of.partition("/")
     if kind == "sensors":
-        found = [(f"{at}/sensors/{one}", labels.index(name)) for one in fields.sensor_names(file, at)
-                 for labels in [[text(label) for label in dataset(file, f"{at}/sensors/{one}/labels")]] if name in labels]
-        if not found:
-            raise BadArtefact(f"{file.filename}: {at}/sensors: found no channel {name}")
-        levels = dataset(file, f"{found[0][0]}/third_octave/acceleration_db")[:, found[0][1]]
+        path, column = fields.labelled(file, at, name)
+        levels = dataset(file, f"{path}/third_octave/acceleration_db")[:, column]
     else:
         levels = dataset(file, f"{at}/sound/third_octave/power_db" if kind == "sound" else f"{at}/panels/{name}/third_octave/erp_db")
     mid = dataset(file, f"{at}/third_octave/mid_hz")[:len(levels)]
