@@ -7,6 +7,7 @@ import numpy as np
 from .artefact import Artefact, dataset, sha256, text
 from .chains import Chain, read_chain
 from .chains import names as chain_names
+from .errors import BadArtefact
 from .films import Film, contacts
 from .rom import Rom
 
@@ -70,8 +71,11 @@ class Run(Artefact):
         """{column: unit} of all histories and, where the reduced models are there as they were, all displacements or angles of bodies."""
         found = {name: text(one.attrs.get("unit", "")) for name, one in self.file.get("history", {}).items() if name not in AXES}
         for body in self.bodies:
-            found.update({f"{body}.{label}": "rad" if turns else "m" for own in self.rom(body).sets.values()
-                          for label, turns in zip(own.labels, own.is_rotation)})
+            try:
+                sets = self.rom(body).sets.values()
+            except BadArtefact:
+                continue
+            found.update({f"{body}.{label}": "rad" if turns else "m" for own in sets for label, turns in zip(own.labels, own.is_rotation)})
         return found
 
     def __getitem__(self, column) -> np.ndarray:
@@ -86,13 +90,21 @@ class Run(Artefact):
     def rom(self, body) -> Rom:
         """The reduced model of a body, from the path of the scene or beside the run. Refused where it is missing or has changed since."""
         self._check(body in self.bodies, f"bodies: found {', '.join(self.bodies)}, expected {body}")
+        if body not in self._roms:
+            self._roms[body] = self._read_rom(body)
         return self._roms[body]
 
     @functools.cached_property
     def _roms(self):
-        return {body: self._rom(body) for body in self.bodies}
+        return {}
 
-    def _rom(self, body):
+    def close(self) -> None:
+        """Closes the file and those of the reduced models; arrays that were read stay."""
+        for one in self._roms.values():
+            one.close()
+        super().close()
+
+    def _read_rom(self, body):
         attributes = self.file[f"bodies/{body}"].attrs
         name = text(attributes["rom"])
         paths = [path for path in (self.path.parent / name, self.path.parent / name.rpartition("/")[2]) if path.exists()]
