@@ -25,6 +25,7 @@ NAVIGATION = {
     "Keys of TOML files": KEYS,
     "Documents": [("docs/concepts.md", "Concepts"), ("docs/faq.md", "Questions"), ("docs/gallery.md", "Gallery"),
                   ("docs/design.md", "Design"), ("docs/effects.md", "Effects"), ("docs/formats.md", "File formats"),
+                  ("docs/python.md", "Python"), ("docs/matlab.md", "MATLAB"),
                   ("docs/cards.md", "Cards and keywords"),
                   ("docs/accuracy.md", "Accuracy"), ("docs/validation.md", "Validation"), ("docs/hard-cases.md", "Hard cases"),
                   ("docs/hard-results.md", "Hard cases: results"),

@@ -10,7 +10,7 @@ import h5py
 import numpy as np
 from study_stand_ins import H, N, SMALL, STUDY, TAU, StandIns, exact, write_given
 
-from clatter_tools.artefact import BadArtefact
+from clatter.artefact import BadArtefact
 from clatter_tools.study import effect_keys, effects, effects_page, findings, markdown, place, proof, proposal, run
 
 

@@ -8,13 +8,12 @@ import signal
 import subprocess
 import sys
 
+from clatter.errors import BadArtefact, CannotWrite, Failed
+from clatter.pipeline import program
 from . import collect, drive_command, export_command, fired_cycle, info, levels, motored_cycle, predict, report, slaps, sweep
-from .artefact import BadArtefact, CannotWrite
 from .integrity import is_damage
 from .keys import command as keys_command
-from .keys import files as keys_files
 from .study import command as study
-from .study.run import Failed
 
 EPILOG = """the stages: clatter-mesh, clatter-assembly, clatter-modal, clatter-condense, clatter-dynamics,
 clatter-recover; each has --help. A Makefile of ten lines includes the rules: include $(shell clatter rules)"""
@@ -23,7 +22,7 @@ clatter-recover; each has --help. A Makefile of ten lines includes the rules: in
 class Version(argparse.Action):
     """`--version`: that of the stages, which come with the command."""
     def __call__(self, top, *_):
-        done = subprocess.run([keys_files.program("clatter-mesh"), "--version"], capture_output=True, text=True)
+        done = subprocess.run([program("clatter-mesh"), "--version"], capture_output=True, text=True)
         print(done.stdout.replace("clatter-mesh", "clatter"), end="")
         top.exit(done.returncode)
 

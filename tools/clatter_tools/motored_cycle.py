@@ -3,7 +3,7 @@
 import dataclasses
 import math
 
-from .artefact import BadArtefact
+from clatter.artefact import BadArtefact
 from .whole_file import whole_file
 
 DEGREE = math.pi / 180.0
