@@ -7,7 +7,7 @@ import pathlib
 import subprocess
 import sys
 
-from . import collect, drive_command, export_command, fired_cycle, info, levels, motored_cycle, predict, report, slaps, sweep
+from . import collect, doctor, drive_command, export_command, fired_cycle, info, levels, motored_cycle, predict, report, slaps, sweep
 from .artefact import BadArtefact, CannotWrite
 from .integrity import is_damage
 from .keys import command as keys_command
@@ -35,6 +35,8 @@ def parser():
     commands = top.add_subparsers(dest="command", required=True, metavar="command")
     one = commands.add_parser("new", help="write a folder that runs: from a sample, a CAD file or a deck")
     new.add_arguments(one)
+    one = commands.add_parser("doctor", help="check packages, programs, BLAS, memory, disk: what is missing, and the way out")
+    doctor.add_arguments(one)
     one = commands.add_parser("info", help="contents, inputs, certificate and cost of an artefact")
     one.add_argument("files", nargs="+", metavar="file.h5")
     one.add_argument("--config", action="store_true", help="print the resolved configuration instead")
@@ -141,6 +143,8 @@ def run_command(options, rules):
     try:
         if options.command == "new":
             new.write_new(options)
+        elif options.command == "doctor":
+            return doctor.run(options)
         elif options.command == "info":
             show = info.print_verified if options.verify else info.print_config if options.config else info.print_info
             for path in options.files:
