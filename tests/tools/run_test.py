@@ -47,13 +47,14 @@ class Run(unittest.TestCase):
         self.environment = {**os.environ, "CLATTER_BIN": str(self.bin), "MAKEFLAGS": ""}
 
     def pipe(self, *arguments):
-        return subprocess.run([sys.executable, "-B", CLATTER, "run", *arguments], cwd=self.folder, text=True, capture_output=True, env=self.environment)
+        return subprocess.run([sys.executable, "-B", CLATTER, "run", *arguments], cwd=self.folder, text=True, capture_output=True,
+                              env=self.environment)
 
     def terminal(self, *arguments):
         """(exit code, what a terminal of 100 columns gets)."""
         ours, theirs = pty.openpty()
-        run = subprocess.Popen([sys.executable, "-B", CLATTER, "run", *arguments], cwd=self.folder, stdin=theirs, stdout=theirs, stderr=theirs,
-                               env={**self.environment, "COLUMNS": "100"})
+        run = subprocess.Popen([sys.executable, "-B", CLATTER, "run", *arguments], cwd=self.folder,
+                               stdin=theirs, stdout=theirs, stderr=theirs, env={**self.environment, "COLUMNS": "100"})
         os.close(theirs)
         text = b""
         while True:

@@ -62,7 +62,8 @@ def programs():
         except (BadArtefact, OSError, subprocess.CalledProcessError, IndexError):
             missing.append(f"clatter-{stage}")
     if missing:
-        return Check("programs", "missing", ", ".join(missing), "`make build` in the source tree, or install the package; CLATTER_BIN names their folder")
+        return Check("programs", "missing", ", ".join(missing),
+                     "`make build` in the source tree, or install the package; CLATTER_BIN names their folder")
     places = ", ".join(sorted({place for found in versions.values() for place in found}))
     if len(versions) > 1:
         return Check("programs", "warning", f"versions {', '.join(sorted(versions))} in {places}", "install or build all six again")
@@ -81,8 +82,10 @@ def packages():
     phases = ("build", "demo") if (PACKAGE.parents[1] / "CMakePresets.json").exists() else ("demo",)
     wanted = listed(phases)
     if not shutil.which("dpkg-query"):
-        return Check("packages", "warning", "not a Debian system, so it is not known which are there", f"it needs what Debian calls {' '.join(wanted)}")
-    done = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${db:Status-Status}\n", *wanted], capture_output=True, text=True, check=False)
+        return Check("packages", "warning", "not a Debian system, so it is not known which are there",
+                     f"it needs what Debian calls {' '.join(wanted)}")
+    query = ["dpkg-query", "-W", "-f", "${Package} ${db:Status-Status}\n", *wanted]
+    done = subprocess.run(query, capture_output=True, text=True, check=False)
     there = {line.split()[0] for line in done.stdout.splitlines() if line.endswith(" installed")}
     missing = [package for package in wanted if package not in there]
     if missing:
@@ -122,7 +125,8 @@ def blas():
         return Check("BLAS", "warning", f"{found[1]} does not say its kernel")
     text = f"OpenBLAS {version}, kernel {kernel}"
     if os.environ.get("OPENBLAS_CORETYPE"):
-        return Check("BLAS", "warning", f"{text}, forced by OPENBLAS_CORETYPE", "unset it, or give --blas auto, for the best one of this CPU")
+        return Check("BLAS", "warning", f"{text}, forced by OPENBLAS_CORETYPE",
+                     "unset it, or give --blas auto, for the best one of this CPU")
     return Check("BLAS", "ok", text)
 
 
@@ -134,7 +138,8 @@ def memory():
     if limit != resource.RLIM_INFINITY:
         free, text = min(free, limit / 2**30), f"{text}, a process gets {limit / 2**30:.1f} (ulimit -v)"
     if free < LEAST_GIB:
-        return Check("memory", "warning", text, f"large parts need more than {LEAST_GIB:g}; --memory-limit keeps the programs below a limit")
+        return Check("memory", "warning", text,
+                     f"large parts need more than {LEAST_GIB:g}; --memory-limit keeps the programs below a limit")
     return Check("memory", "ok", text)
 
 
@@ -147,7 +152,8 @@ def threads():
 def disk(folder):
     free = shutil.disk_usage(folder).free / 1e9
     if free < LEAST_DISK_GB:
-        return Check("disk", "warning", f"{free:.1f} GB are free in {folder.resolve()}", f"a sweep of many runs may need more than {LEAST_DISK_GB:g}")
+        return Check("disk", "warning", f"{free:.1f} GB are free in {folder.resolve()}",
+                     f"a sweep of many runs may need more than {LEAST_DISK_GB:g}")
     return Check("disk", "ok", f"{free:.0f} GB are free in {folder.resolve()}")
 
 

@@ -72,7 +72,8 @@ def named(faces, unit):
                         f"radius {face['radius']:g} {unit}, length {long:.4g} {unit}")
                 for k, (_, face, box, long) in enumerate(holes[:BORES], 1)]
     planes = sorted((face for face in faces if face["kind"] == "plane"), key=lambda face: -face["area"])[:PLANES]
-    surfaces += [Surface(f"plane_{k}", face["toml"], f"face {face['number']}, {face['area']:.4g} {unit}2, normal {vector(np.round(face['direction'], 4))}")
+    surfaces += [Surface(f"plane_{k}", face["toml"], f"face {face['number']}, {face['area']:.4g} {unit}2, "
+                                                     f"normal {vector(np.round(face['direction'], 4))}")
                  for k, face in enumerate(planes, 1)]
     return surfaces, len(holes)
 

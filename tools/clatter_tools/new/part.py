@@ -71,14 +71,15 @@ def write_cad(folder, path, stem, source):
         stem=stem, source=source, unit=unit, size=size, written=f"the file {written[0]}" if written else "the file is CAD",
         element=cad_faces.element_size_mm(nodes, triangles),
         surfaces="".join(f"\n[surface.{one.name}]   # {one.comment}\n{one.toml}\n" for one in surfaces)))
-    couplings = "".join(f'\n[[coupling]]\nname = "{bore.name}"\nkind = "bearing"\nsurface = "{bore.name}"   # {bore.comment}\n' for bore in bores)
+    couplings = "".join(f'\n[[coupling]]\nname = "{bore.name}"\nkind = "bearing"\nsurface = "{bore.name}"   # {bore.comment}\n'
+                        for bore in bores)
     write(folder, f"{stem}.fe.toml", templates.CAD_FE.format(unit=unit if unit in ("m", "mm") else "m", couplings=couplings)
           + sensors(nodes, scale if unit in ("m", "mm") else 1.0))
     write_rest(folder, stem, nodes, [bore.name for bore in bores], ["[[setting]]", 'name = "element size"', 'unit = "mm"',
                f'key = "{stem}.mesh.toml:mesh.element_size_mm"', f"values = {sizes(cad_faces.element_size_mm(nodes, triangles))}", "", ""])
     return [f"{path}: {written[0] if written else 'CAD'}, {size} {unit}; {len(faces)} faces",
             *(f"  {one.name:<8} {one.comment}" for one in surfaces),
-            *([f"  {holes - len(bores)} smaller bores have no name: clatter-mesh faces {path} lists all faces"] if holes > len(bores) else []),
+            *([f"  {holes - len(bores)} smaller bores have no name: clatter-mesh faces {path} lists them"] if holes > len(bores) else []),
             "material: steel is assumed; the part is free: see the comments of the .fe.toml"]
 
 
@@ -94,7 +95,8 @@ def write_deck(folder, path, stem, source, units):
     table = tomllib.loads(text)
     with h5py.File(mesh) as file:
         if "surfaces/skin" not in file:
-            raise BadArtefact(f"{path}: has no solid cells, whose skin is what radiates; clatter-mesh {path} --units {units} --check lists what it holds")
+            raise BadArtefact(f"{path}: has no solid cells, whose skin is what radiates; "
+                              f"clatter-mesh {path} --units {units} --check lists what it holds")
         nodes = file["nodes"][()][free_nodes(file, table)]
     mesh.unlink()
     damping = "" if "damping" in table else templates.DAMPING

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Texts of the folder of one part; samples/beam has what is general."""
 
-CAD_MESH = """# {stem}: {written}, lengths here are in {unit}; {size} {unit} in all. Make repeats what depends on the file when it changes.
+CAD_MESH = """# {stem}: {written}, lengths here are in {unit}; {size} {unit} in all.
 name = "{stem}"
 kind = "cad"
 length_unit = "{unit}"
@@ -52,8 +52,8 @@ SENSORS = """
 """
 
 REST = {
-    "{stem}.rom.toml": """# Craig-Bampton: these sets are retained, modes represent the rest. CHANGE: sets that no scene needs can go, but what stays
-# has to hold all rigid motions of the part.
+    "{stem}.rom.toml": """# Craig-Bampton: these sets are retained, modes represent the rest.
+# CHANGE: sets that no scene needs can go, but what stays has to hold all rigid motions of the part.
 method = "craig-bampton"
 boundary = [{names}]
 fmax_hz = {fmax}             # of the modes, for {longest} mm of steel or aluminium: results hold to about half of it
@@ -79,7 +79,8 @@ table = "hit.csv"
     "hit.field.toml": """# Velocity of the surface and its spectrum: nothing rotates, so there is no cycle.
 body = "{stem}"
 cycle = false
-# sound = "{stem}.sound.h5"    # CHANGE: for sound power instead of its estimate; then also `hit.field.h5: {stem}.sound.h5` in the Makefile
+# CHANGE: for sound power instead of its estimate; then also `hit.field.h5: {stem}.sound.h5` in the Makefile:
+# sound = "{stem}.sound.h5"
 
 [spectrum]
 from_hz = 20.0
@@ -121,7 +122,8 @@ name = "radiated power, estimated"
 file = "hit.field.h5"
 take = "erp_dba"
 """,
-    "Makefile": """# `clatter run` or make: what is newer than its results is repeated. `make check` compares modes of the reduced and the full model.
+    "Makefile": """# `clatter run` or make repeats what a newer input affects.
+# `make check` compares the modes of the reduced model with those of the full one.
 include $(shell clatter rules)
 all: {stem}.rom.h5 hit.field.h5
 check: {stem}.compare.txt

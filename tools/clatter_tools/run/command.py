@@ -27,7 +27,8 @@ def run(options):
     if not (pathlib.Path(folder) / "Makefile").exists() and pathlib.Path("Makefile").exists():
         folder, targets = ".", options.words
     if not (pathlib.Path(folder) / "Makefile").exists():
-        raise BadArtefact(f"{folder}: no Makefile; `clatter new` writes a folder with one, or write one with `include $(shell clatter rules)`")
+        raise BadArtefact(f"{folder}: no Makefile; `clatter new` writes a folder with one, "
+                          "or write one with `include $(shell clatter rules)`")
     if options.jobs < 1:
         raise BadArtefact(f"--jobs: found {options.jobs}, expected at least 1")
     command = ["make", "--no-print-directory", "-C", folder, f"-j{options.jobs}", *targets]
