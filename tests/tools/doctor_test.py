@@ -3,10 +3,12 @@
 import json
 import os
 import pathlib
+import subprocess
+import sys
 import tempfile
 import unittest
 
-from clatter_command import clatter
+from clatter_command import TOOLS, clatter
 from clatter_tools import doctor
 
 STAGES = doctor.STAGES
@@ -35,6 +37,15 @@ class Doctor(unittest.TestCase):
         answer = json.loads(done.stdout)
         self.assertEqual(answer["ok"], code == 0)
         return {check["name"]: check for check in answer["checks"]}
+
+    def test_without_packages_of_python_the_command_names_them_and_the_doctor_works(self):
+        bare = [sys.executable, "-S", str(TOOLS / "clatter")]  # without site-packages
+        done = subprocess.run([*bare, "--help"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertRegex(done.stderr, r"\Aclatter: error: .* has no (numpy|h5py): apt-get install python3-\1; without it .*\n\Z")
+        done = subprocess.run([*bare, "doctor"], capture_output=True, text=True, cwd=self.folder, env={**os.environ, **self.environment})
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("missing  Python    numpy, h5py, scipy, matplotlib: apt-get install python3-numpy", done.stdout)
 
     def test_each_check_has_a_line_that_begins_with_its_status(self):
         done = clatter("doctor", folder=self.folder, environment=self.environment)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter doctor`: whether this machine and folder have what clatter needs, a line each, with the way out."""
+import argparse
 import ctypes
 import dataclasses
 import importlib.util
@@ -35,6 +36,13 @@ class Check:
 def add_arguments(one):
     one.add_argument("folder", nargs="?", default=".", help="where results will be written; default: this one")
     one.add_argument("--json", action="store_true", help="one line of JSON")
+
+
+def main(arguments):
+    """The command alone, which needs Python only."""
+    parser = argparse.ArgumentParser(prog="clatter doctor")
+    add_arguments(parser)
+    return run(parser.parse_args(arguments))
 
 
 def run(options):
