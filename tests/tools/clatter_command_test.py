@@ -51,6 +51,18 @@ class Command(unittest.TestCase):
         for expected in ("slap_dry", "block.mesh.h5", "total", "2.00", "0.44", "417", "12.5"):
             self.assertIn(expected, done.stdout)
 
+    def test_a_damaged_file_is_left_out_of_the_report_with_a_warning(self):
+        (self.folder / "broken.run.h5").write_bytes(b"no HDF5")
+        done = clatter("report", ".", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"\Aclatter: warning: .*broken\.run\.h5: .*: left out\n\Z")
+        alone = self.folder / "alone"
+        alone.mkdir()
+        (self.folder / "broken.run.h5").rename(alone / "broken.run.h5")
+        done = clatter("report", "alone", folder=self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("broken.run.h5", done.stderr)
+
     def test_named_cylinders_have_lines_and_rows_of_their_own(self):
         synthetic.write_run(self.folder / "four.run.h5", cylinder="c1")
         with h5py.File(self.folder / "four.run.h5", "a") as file:

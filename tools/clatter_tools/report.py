@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter report`: results of the runs of a folder, cost of each stage, paths of pictures."""
 import pathlib
+import sys
 
 from clatter import artefact, chains
 from . import drive_findings, findings, slap
@@ -8,12 +9,29 @@ from . import drive_findings, findings, slap
 STAGES = ["mesh", "fe", "modes", "rom", "sound", "run", "field"]
 
 
+def artefacts_of(folder):
+    """The paths of a folder's artefacts by stage; one that cannot be read is left out with a warning."""
+    folder = pathlib.Path(folder)
+    files = {stage: [] for stage in STAGES}
+    damaged = []
+    for stage in STAGES:
+        for path in sorted(folder.glob(f"*.{stage}.h5")):
+            try:
+                artefact.open_artefact(path, stage).close()
+                files[stage].append(path)
+            except artefact.BadArtefact as error:
+                damaged.append(error)
+    if not any(files.values()):
+        raise damaged[0] if damaged else artefact.BadArtefact(f"{folder}: no artefacts; `clatter run {folder}` makes them")
+    for error in damaged:
+        print(f"clatter: warning: {error}: left out", file=sys.stderr)
+    return files
+
+
 def print_report(folder):
     """Prints findings per run, seconds and memory per stage, and the files to view."""
     folder = pathlib.Path(folder)
-    files = {stage: sorted(folder.glob(f"*.{stage}.h5")) for stage in STAGES}
-    if not any(files.values()):
-        raise artefact.BadArtefact(f"{folder}: no artefacts; `clatter run {folder}` makes them")
+    files = artefacts_of(folder)
     print_models(files["fe"], files["rom"])
     print_quality(files["mesh"])
     print_comparisons(folder)

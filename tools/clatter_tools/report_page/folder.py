@@ -6,7 +6,7 @@ import re
 
 from clatter import artefact
 from ..plots import style
-from ..report import STAGES, stem
+from ..report import artefacts_of, stem
 
 MANY = 7  # runs, of which each has a colour of its own; of more only some are shown in full
 
@@ -26,9 +26,7 @@ class Folder:
 
     def __init__(self, path):
         self.path = pathlib.Path(path)
-        self.files = {stage: sorted(self.path.glob(f"*.{stage}.h5")) for stage in STAGES}
-        if not any(self.files.values()):
-            raise artefact.BadArtefact(f"{path}: no artefacts; `clatter run {path}` makes them")
+        self.files = artefacts_of(path)
         self.runs = [self.read(number, name) for number, name in
                      enumerate(sorted({stem(one) for stage in ("run", "field") for one in self.files[stage]}, key=natural))]
 
