@@ -96,11 +96,13 @@ class Rom(Artefact):
     @functools.cached_property
     def _modes(self):
         """All modes: K Phi = M Phi Lambda by Cholesky's factor of M with unit diagonal."""
+        singular = "M_rr: found a matrix that is not positive definite, expected a mass of each coordinate"
+        self._check(np.all(np.diag(self.M) > 0.0), singular)
         scale = 1.0 / np.sqrt(np.diag(self.M))
         try:
             inverse = np.linalg.inv(np.linalg.cholesky(self.M * np.outer(scale, scale)))
         except np.linalg.LinAlgError as error:
-            raise BadArtefact(f"{self.path}: M_rr: found a matrix that is not positive definite, expected masses") from error
+            raise BadArtefact(f"{self.path}: {singular}") from error
         eigenvalues, vectors = np.linalg.eigh(inverse @ (self.K * np.outer(scale, scale)) @ inverse.T)
         return Eigenmodes(np.sqrt(np.maximum(eigenvalues, 0.0)) / (2.0 * np.pi), scale[:, None] * (inverse.T @ vectors))
 

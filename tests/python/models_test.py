@@ -10,6 +10,7 @@ from scipy.sparse.linalg import spsolve
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 import clatter  # noqa: E402
+import h5py  # noqa: E402
 import stages  # noqa: E402
 from clatter import model  # noqa: E402
 
@@ -123,6 +124,17 @@ class Models(stages.PipelineTest):
         # Far below its first mode the body is a mass that the force turns: 1 / m + a^2 / I of the tip, at half the length from the centre.
         rigid = 1.0 / MASS + (LENGTH / 2) ** 2 / (MASS / 12.0 * (LENGTH**2 + HEIGHT**2))
         self.assertAlmostEqual(abs(rom.frf("tip.z", "tip.z", 1.0, "acceleration")[0, 0, 0]), rigid, delta=1e-3 * rigid)
+
+    def test_a_mass_matrix_that_is_not_positive_definite_is_refused(self):
+        for size in (0.0, 1e3):  # no mass, and off the diagonal more than on it
+            with h5py.File(self.folder / "beam.rom.h5", "r+") as file:
+                M = file["M_rr"][()]
+                M[0, 0], M[0, 1], M[1, 0] = M[0, 0] * bool(size), size, size
+                file["M_rr"][...] = M
+            with self.assertRaisesRegex(clatter.Refused, "beam.rom.h5: M_rr: found a matrix that is not positive definite"), \
+                    clatter.open(self.folder / "beam.rom.h5") as rom:
+                rom.modes()
+            (self.folder / "beam.rom.h5").write_bytes((self.master / "beam.rom.h5").read_bytes())
 
     def test_the_skin_moves_as_its_nodes_in_the_full_model(self):
         rom, modes = self.open("beam.rom.h5"), self.open("beam.modes.h5")
