@@ -7,13 +7,14 @@
 A page is run in a scratch folder, from top to bottom. Its blocks are
 
 - a file: a line with its name as code and a colon, an empty line, the block;
-- ```console: commands after "$ ", continued after "> " where a line ends in a backslash, each followed by the lines that it prints
-  on stdout. Progress and warnings go to stderr and are not shown. ~/clatter is the source tree.
+- ```console: commands after "$ ", continued after "> ", each followed by the lines that it prints on stdout. Progress and warnings
+  go to stderr and are not shown. ~/clatter is the source tree.
 
-No other block is allowed; a block may be in a quotation ("> "). `...` as a line stands for any lines, at the end of a line for the rest of it. Comments before a block:
+No other block is allowed; a block may be in a quotation ("> "). `...` as a line stands for any lines, at the end of a line for the
+rest of it. Comments before a block:
 
 - <!-- tolerance 1e-2 -->: largest relative difference of the numbers in it, instead of 1e-3;
-- <!-- exit code 2 -->: its commands end with this code, and their messages on stderr are shown as well.
+- <!-- exit code 2 -->: its last command ends with this code, and its messages on stderr are shown as well.
 
 Words are compared exactly, apart from the width of spaces between them. A number may differ by the tolerance or by one unit of its
 last digit, a whole number only where a tolerance is given. A number below 1e-3 with an exponent is an error or a residue: it may be
@@ -89,18 +90,18 @@ def commands_of(body, quote, line, offset, tolerance, code):
     for number, text in enumerate(body.splitlines(keepends=True), 1):
         bare = text.rstrip("\n").removeprefix(quote)
         if bare.startswith("$ "):
-            found.append(Step(line + number, text=bare[2:], span=(offset + len(text),) * 2, tolerance=tolerance, code=code, quote=quote))
+            found.append(Step(line + number, text=bare[2:], span=(offset + len(text),) * 2, tolerance=tolerance, quote=quote))
         elif not found:
             raise Differs(f"line {line + number}: found output, expected a command after \"$ \"")
-        elif found[-1].text.endswith("\\") and not found[-1].printed:
-            if not bare.startswith("> "):
-                raise Differs(f"line {line + number}: found no \"> \" after a line that ends in a backslash")
+        elif bare.startswith("> ") and not found[-1].printed:
             found[-1].text += "\n" + bare[2:]
             found[-1].span = (offset + len(text),) * 2
         else:
             found[-1].printed += (bare,)
             found[-1].span = (found[-1].span[0], offset + len(text))
         offset += len(text)
+    if found:
+        found[-1].code = code
     return found
 
 
@@ -111,7 +112,7 @@ def steady(line):
 
 
 def words_and_numbers(line):
-    return NUMBER.sub("#", line), NUMBER.findall(line)
+    return NUMBER.sub("\0", line), NUMBER.findall(line)
 
 
 def close(expected, found, tolerance):
@@ -132,10 +133,9 @@ def difference(expected, found, tolerance):
     """What is wrong with a line that was printed; None if nothing is."""
     expected, found = steady(expected), steady(found)
     if expected.endswith("..."):
-        words, numbers = words_and_numbers(expected.removesuffix("...").rstrip())
-        start = re.match(re.escape(words).replace(r"\#", "(?:" + NUMBER.pattern + ")"), found)
-        found = start[0] if start else found
         expected = expected.removesuffix("...").rstrip()
+        start = re.match(f"(?:{NUMBER.pattern})".join(map(re.escape, NUMBER.split(expected))), found)
+        found = start[0] if start else found
     (words, numbers), (other_words, other_numbers) = words_and_numbers(expected), words_and_numbers(found)
     if words != other_words:
         return f"expected: {expected}\n  found:    {found}"
@@ -221,6 +221,14 @@ def run_step(shell, step):
     return lines
 
 
+def save_small(made, picture):
+    """A picture for the page: at most 1000 pixels wide, in 64 colours."""
+    from PIL import Image  # comes with matplotlib
+    image = Image.open(made).convert("RGB")
+    image.thumbnail((1000, 2000))
+    image.quantize(64).save(picture, optimize=True)
+
+
 def check_pictures(path, page, root, write):
     for name in IMAGE.findall(page):
         made = next((file for file in sorted(root.glob("work/**/*.png")) if file.name == pathlib.Path(name).name), None)
@@ -228,7 +236,7 @@ def check_pictures(path, page, root, write):
             raise Differs(f"no command of the page writes the picture {name}")
         if write:
             (path.parent / name).parent.mkdir(exist_ok=True)
-            shutil.copyfile(made, path.parent / name)
+            save_small(made, path.parent / name)
         if (path.parent / name).stat().st_size > LARGEST_PICTURE:
             raise Differs(f"{name} is larger than {LARGEST_PICTURE} bytes")
 
@@ -253,11 +261,11 @@ def run_page(path, write=False, keep=None):
                 end = step.span[1]
             else:
                 compare(step, printed)
-        check_pictures(path, page, root, write)
         if keep:
             shutil.copytree(shell.root / "work", keep, dirs_exist_ok=True)
-    if write:
-        path.write_text("".join([*pieces, page[end:]]))
+        if write:
+            path.write_text("".join([*pieces, page[end:]]))
+        check_pictures(path, page, root, write)
 
 
 def main():
