@@ -1,3 +1,4 @@
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the pages of docs/tutorial: their files, their commands, and what these print.
 
@@ -222,11 +223,11 @@ def run_step(shell, step):
 
 
 def save_small(made, picture):
-    """A picture for the page: at most 1000 pixels wide, in 64 colours."""
+    """A picture for the page: at most 1000 pixels wide, in 256 colours."""
     from PIL import Image  # comes with matplotlib
     image = Image.open(made).convert("RGB")
     image.thumbnail((1000, 2000))
-    image.quantize(64).save(picture, optimize=True)
+    image.quantize(256).save(picture, optimize=True)
 
 
 def check_pictures(path, page, root, write):
