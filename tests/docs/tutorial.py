@@ -177,7 +177,7 @@ def renewed(step, printed):
         while difference(line, printed[at], float("inf")) is not None:
             at += 1
         numbers = iter(NUMBER.findall(printed[at]))
-        same = difference(line, printed[at], step.tolerance) is None
+        same = difference(line, printed[at], None) is None
         lines.append(line if same else NUMBER.sub(lambda _: next(numbers), line) if line.rstrip().endswith("...") else printed[at])
         at += 1
     return lines
