@@ -6,7 +6,7 @@
 #   make hard       every hard case of docs/hard-cases.md with a line each; CASES="B3 N" chooses, WRITE=1 writes docs/hard-results.md
 #   make check-mpi  clatter-condense-mpi by several processes, and its tests
 #   make docs       the site in build/docs           make lint      format, workflows, self-contained headers; make tidy: clang-tidy
-#   make keys-pages docs/keys/*.md, the keys of each TOML file
+#   make keys-pages docs/keys/*.md, the keys of each TOML file; make help-pages: man pages and the completion of bash, from --help
 #   make study      what accuracy costs, of beam, slap and timing drive; make study-paper, study-parameters   figures and influences of the slap
 #   make deb        a Debian package in build/, for x86-64 processors of two generations
 JOBS ?= $(shell nproc)
@@ -26,7 +26,7 @@ export ASAN_OPTIONS := alloc_dealloc_mismatch=0
 endif
 
 .NOTPARALLEL:
-.PHONY: help setup setup-mpi setup-demo setup-check setup-validate configure build build-mpi build-tests demo study study-paper study-parameters check hard check-mpi validate sanitize format lint docs keys-pages deb levels install tidy workflows clean
+.PHONY: help setup setup-mpi setup-demo setup-check setup-validate configure build build-mpi build-tests demo study study-paper study-parameters check hard check-mpi validate sanitize format lint docs keys-pages help-pages deb levels install tidy workflows clean
 help:
 	@sed -n 's/^# \{0,1\}//;2,11p' Makefile
 
@@ -128,6 +128,10 @@ deb:
 # docs/keys/*.md, from the tables by which the programs read their TOML files.
 keys-pages: build
 	@CLATTER_BIN=$(BIN) PYTHONPATH=tools /usr/bin/python3 -B -m clatter_tools.keys pages docs/keys
+
+# tools/man/*.1 and tools/completion, from the help of the programs.
+help-pages: setup-demo build
+	@CLATTER_BIN=$(BIN) PYTHONPATH=tools /usr/bin/python3 -B -m clatter_tools.help_pages tools
 
 docs:
 	@tools/setup docs

@@ -30,7 +30,8 @@ from page import markdown, write
 ROOT = Path(__file__).resolve().parent.parent
 SAMPLE = ROOT / "samples" / "truck_diesel"
 sys.path.insert(0, str(ROOT / "tools"))
-from clatter_tools import fields, levels, slap  # noqa: E402
+from clatter_tools import levels, slap  # noqa: E402
+from clatter import fields  # noqa: E402
 
 PARTS = {"block": ["block.rom.h5", "block.sound.h5"], "piston": ["piston.rom.h5"], "bore": ["liner_4.shape.h5"], "skirt": ["skirt.shape.h5"]}
 SETTINGS = ["*.run.toml", "*.csv", "field.toml"]

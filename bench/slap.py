@@ -25,7 +25,8 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 SAMPLE = ROOT / "samples" / "truck_diesel"
 sys.path.insert(0, str(ROOT / "tools"))
-from clatter_tools import fields, slap  # noqa: E402
+from clatter_tools import slap  # noqa: E402
+from clatter import fields  # noqa: E402
 
 import slap_large  # noqa: E402
 

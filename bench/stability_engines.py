@@ -13,7 +13,8 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
-from clatter_tools import fields, slap  # noqa: E402
+from clatter_tools import slap  # noqa: E402
+from clatter import fields  # noqa: E402
 
 import stability_models as models  # noqa: E402
 import stability_numbers as numbers  # noqa: E402

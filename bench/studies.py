@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables of docs/accuracy.md and README.md that `clatter study` makes: budgets, effects and proved proposals of the samples, and a deck of
+"""Tables of docs/accuracy.md that `clatter study` makes: budgets, effects and proved proposals of the samples, and a deck of
 calculix-ccx-test under a moving force.
 
 Takes what `make study` has made, and makes what is missing. A study's tables go between <!-- study NAME --> and the next <!-- end --> of
@@ -25,7 +25,6 @@ from clatter_tools.study import effects, effects_page, findings, markdown, page,
 STUDIES = {"slap": "truck_diesel/study.toml", "mesh": "truck_diesel/study_mesh.toml", "drive": "timing_drive/study.toml", "beam": "beam/study.toml"}
 WITH_EFFECTS = ("slap", "drive")
 CHOICES = [*STUDIES, "deck", "proofs"]
-IN_README = ["sound power", "height of the slap"]  # quantities of the slap
 PICTURE = ("sound-power.png", ROOT / "docs/study.png")
 
 
@@ -35,13 +34,11 @@ def budget(name, path, jobs, put):
     put(f"study {name}", [*markdown.study(found), "", *(f"- {one}." for one in findings.sentences(found) if not one.endswith("no value changes it"))])
 
 
-def effects_of(name, options, put):
-    found = effects.make(study_of(name), options.jobs)
+def effects_of(name, jobs, put):
+    found = effects.make(study_of(name), jobs)
     effects.write(found)
     effects_page.write(found)
     put(f"effects {name}", markdown.effects(found))
-    if name == "slap" and options.write:
-        write(f"effects {name}", markdown.few_effects(found, IN_README), ROOT / "README.md")
 
 
 def study_of(name):
@@ -65,7 +62,7 @@ def main():
         if name in options.only:
             budget(name, study_of(name), options.jobs, put)
         if name in options.only and name in WITH_EFFECTS:
-            effects_of(name, options, put)
+            effects_of(name, options.jobs, put)
     if "slap" in options.only and options.write:
         shutil.copyfile(study_of("slap").parent / "study" / PICTURE[0], PICTURE[1])
     if "deck" in options.only:

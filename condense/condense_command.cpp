@@ -19,7 +19,7 @@ namespace {
 struct CondenseArguments {
   std::filesystem::path model, config, output;
   bool uncertified = false;
-  double verify_hz = std::nan("");  // not a number: no verification
+  double verify_hz = std::nan("");  // not a number: as the request says
 };
 
 /// clatter-condense-mpi does it too.
@@ -27,12 +27,12 @@ bool several_processes_could(const CondenseOptions& options) {
   return options.modes.method != sparse::EigenMethod::kAmls;
 }
 
-rom::ReducedModel reduce(const CondenseArguments& a, const PartitionedModel& part,
-                         const CondenseOptions& options, StepClock& clock) {
+rom::ReducedModel reduce(const PartitionedModel& part, const CondenseOptions& options,
+                         StepClock& clock) {
   rom::ReducedModel reduced = condense(part, options, clock);
   for (const std::string& text : describe(reduced)) print_result(text);
-  if (std::isnan(a.verify_hz)) return reduced;
-  const modes::Comparison compared = verify(reduced, part, a.verify_hz);
+  if (!options.verify_hz) return reduced;
+  const modes::Comparison compared = verify(reduced, part, *options.verify_hz);
   clock.lap("verification by the full model");
   if (!compared.modes.empty()) print_result(modes::table_of(compared).back());
   return reduced;
@@ -49,6 +49,7 @@ void condense_part(const CondenseArguments& a, const PartSource& source,
   CondenseOptions options = condense_keys().read(config);
   if (a.uncertified)
     options.certificate = options.modes.prove_count = options.modes.estimate_error = false;
+  if (!std::isnan(a.verify_hz)) options.verify_hz = a.verify_hz;
   options.order = rom::read_elimination_order(a.output);
   const std::optional<fe::FeModel> model = source.read(a.model, common);
   if (!model) return;
@@ -57,7 +58,7 @@ void condense_part(const CondenseArguments& a, const PartSource& source,
       with_memory_advice(several_processes_could(options) ? source.memory_advice : "", [&] {
         const auto part = source.partition(a.model, *model, options);
         clock.lap("partition");
-        return reduce(a, *part, options, clock);
+        return reduce(*part, options, clock);
       });
   if (!source.writes) return;
   write_artefact(a.output, {rom::kRomSchema, config.resolved(), {a.model, a.config}}, clock, common,
@@ -78,9 +79,11 @@ void declare_condense(CommandLine& line, const PartSource& source) {
   line.flag("--no-certificate", a->uncertified,
             "omit costly checks: the count of modes, the spectrum and condition of the reduced "
             "matrices; the file records this");
-  line.option("--verify", a->verify_hz,
-              "compare with modes of the full model up to this frequency [Hz] and put the "
-              "largest error and the smallest MAC into the certificate; 0: up to accurate_to_hz");
+  line.option(
+      "--verify", a->verify_hz,
+      "compare with modes of the full model up to this frequency [Hz] and put the "
+      "largest error and the smallest MAC into the certificate; 0: up to accurate_to_hz; in "
+      "place of verify_hz of the request");
   line.blas();
   line.memory_limit();
   line.action([a, source](const CommonOptions& common) { condense_part(*a, source, common); });

@@ -57,6 +57,10 @@ const keys::Keys<CondenseOptions>& condense_keys() {
                   "names of loads whose static response is added, so that it is exact everywhere");
         key.flag("prove_count", modes.prove_count,
                  "whether a count by inertia proves that no mode is missing");
+        key.number("verify_hz", options.verify_hz, Range::not_negative(),
+                   "compares with modes of the full model up to this frequency, which costs their "
+                   "computation, and puts the largest error and the smallest MAC into the "
+                   "certificate; 0 for up to accurate_to_hz");
         key.part(static_cast<sparse::EigenChoice&>(modes), sparse::eigen_choice_keys());
         key.texts("skin", options.skin,
                   "names of surfaces whose displacement can be recovered, [] for none");

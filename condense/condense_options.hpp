@@ -20,6 +20,7 @@ struct CondenseOptions {
   std::vector<std::string> boundary;         // set names; their order is that of the coordinates
   ModeRequest modes;                         // shapes of the interior
   bool certificate = true;                   // false: without its costly part (certificate.hpp)
+  std::optional<double> verify_hz;           // the full model's modes are compared up to it
   std::vector<std::string> skin = {"skin"};  // surfaces whose displacement can be recovered
   std::vector<std::string> rows;    // sets, besides the boundary, whose displacement is kept
   rom::EliminationOrder order;      // of K_ii, reused where it fits

@@ -21,7 +21,7 @@ keys that a scene does not set from another scene, so a variant is a few lines:
     [drive.crank]             # the base's [[drive]] of this name
     speed_rpm = 1000
 
-clatter-dynamics keys contact prints the keys of a table; dynamics/README.md has the equations and the error test. Ctrl-C or SIGTERM stops after a step with a valid
+clatter-dynamics keys contact prints the keys of a table; docs/dynamics has the equations and the error test. Ctrl-C or SIGTERM stops after a step with a valid
 file, stem.run.interrupted.h5 (attribute complete = 0); --resume continues from the last finished cycle.
 
 sample commands

@@ -18,11 +18,13 @@ struct ListenArguments {
 
 void listen(const ListenArguments& a, const CommonOptions& common) {
   constexpr double kLongest = 600.0;  // [s], 58 MB
-  if (!(a.rule.seconds > 0.0 && a.rule.seconds <= kLongest) || !(a.rule.full_scale_pa >= 0.0))
+  constexpr double kShortest = 0.01;  // [s]
+  if (!(a.rule.seconds >= kShortest && a.rule.seconds <= kLongest) ||
+      !(a.rule.full_scale_pa >= 0.0))
     throw InputError(fmt::format(
-        "command line: found --seconds {:g} --full-scale-pa {:g}, expected 0 to {:g} s and a "
+        "command line: found --seconds {:g} --full-scale-pa {:g}, expected {:g} to {:g} s and a "
         "positive pressure",
-        a.rule.seconds, a.rule.full_scale_pa, kLongest));
+        a.rule.seconds, a.rule.full_scale_pa, kShortest, kLongest));
   write_exports({a.wav, {a.wav}, {a.field}}, common, [&] {
     const WavSummary made = write_wav(a.field, a.microphone, a.rule, a.wav);
     return fmt::format("{}, up to {:g} Hz: peak {:.3g} Pa, RMS {:.3g} Pa, full scale {:.4g} Pa",
@@ -35,7 +37,8 @@ void listen(const ListenArguments& a, const CommonOptions& common) {
 void declare_listen(CommandLine& program) {
   CommandLine& line = program.command(
       "listen",
-      "Writes the sound of a steady run at a microphone as a WAV file, its cycle repeated.",
+      "Writes the sound of a run at a microphone as a WAV file: its cycle repeated, or its first "
+      "window.",
       "Samples:\n"
       "  clatter-recover listen slap.field.h5 slap.wav\n"
       "  clatter-recover listen slap.field.h5 slap.wav --microphone top --full-scale-pa 2\n"

@@ -29,7 +29,7 @@ std::optional<Piece> optional_piece(bool requested, const Make& make) {
 
 Piece whole_run(const RunClock& clock, const std::string& origin) {
   const Span span{clock.time[0], clock.time[clock.time.size() - 1], true};
-  return window(clock, {.name = "whole", .span = span, .taper = Taper::kHann}, origin);
+  return window(clock, {.name = "whole", .span = span}, origin);
 }
 
 std::vector<Piece> choose_pieces(const RunClock& clock, const Options& options,
@@ -56,13 +56,17 @@ struct FrameChoice {
 FrameChoice choose_frames(const RunClock& clock, const Options& options,
                           const std::string& origin) {
   const FrameRule& rule = options.frames;
+  const auto with_end = [&](Piece piece) {
+    piece.count = std::min<int64_t>(piece.count + 1, clock.time.size() - piece.first);
+    return piece;
+  };
   std::optional<Piece> piece;
   if (clock.has_crank() || options.frames_requested)
     piece = optional_piece(options.frames_requested, [&] {
-      return window(clock, {.name = "frames", .span = rule.span, .taper = Taper::kNone}, origin);
+      return with_end(window(clock, {.name = "frames", .span = rule.span}, origin));
     });
   if (piece) return {*piece, frame_samples(clock, *piece, rule.span, rule.step)};
-  piece = whole_run(clock, origin);
+  piece = with_end(whole_run(clock, origin));
   constexpr double kFrames = 60.0;
   return {*piece, frame_samples(clock, *piece, {0.0, 0.0, true}, piece->duration_s() / kFrames)};
 }
@@ -72,6 +76,29 @@ std::vector<PanelRule> panel_rules(const Options& options) {
   std::vector<PanelRule> rules{{.name = "skin"}};
   rules.insert(rules.end(), options.panels.begin(), options.panels.end());
   return rules;
+}
+
+/// Warns where the spectra of a run without cycles leave out its largest motion, or a taper takes
+/// most of its energy away.
+void warn_of_lost_motion(const RunBody& body, const PanelForm& skin, const Piece& piece) {
+  const RunClock& clock = body.clock();
+  if (piece.periodic || piece.domain == Domain::kAngle || piece.segments() > 1) return;
+  constexpr double kMost = 0.5;
+  Eigen::Index largest = 0;
+  const Eigen::VectorXd square =
+      normal_velocity_integral(skin.W, body.samples("v", 0, clock.time.size()));
+  if (!(square.maxCoeff(&largest) > 0.0)) return;
+  const Eigen::Index at = largest - piece.first;
+  const std::string where = fmt::format("{}: the largest motion of the run, at {:.4g} s, lies",
+                                        body.path().string(), clock.time[largest]);
+  if (at < 0 || at >= piece.count)
+    warn(fmt::format("{} outside '{}', {:.4g} to {:.4g} s: spectra and levels lack it", where,
+                     piece.name, piece.first_s, piece.first_s + piece.duration_s()));
+  else if (const double w = taper_values(piece.taper, piece.count)[at]; w * w < kMost)
+    warn(
+        fmt::format("{} under the edge of '{}', where taper = \"{}\" leaves {:.2g} % of its "
+                    "energy: taper = \"none\" keeps it",
+                    where, piece.name, name_of(piece.taper), 100.0 * w * w));
 }
 
 /// Fraction of the mean square normal velocity of the skin above the spectra's limit.
@@ -236,6 +263,7 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
   for (const Piece& piece : pieces)
     summary.analyses.push_back(
         analyse(body, piece, options, summary.limit.to_hz, forms, summary.sensors));
+  if (pieces.size() == 1) warn_of_lost_motion(body, forms.front(), pieces.front());
   summary.certificate = certify(body, summary.analyses.front(), geometry, forms.front());
   clock.lap("spectra and radiated power");
   summary.sounds = radiate(body, model, T, options, summary.panels, summary.analyses);
@@ -293,6 +321,13 @@ JsonMembers json_of(const Summary& summary) {
     members.emplace_back("sound_power_w", json_number(sound.total));
     members.emplace_back("sound_power_db", json_number(level_db(sound.total, reference)));
     members.emplace_back("sound_power_dba", json_number(level_db(sound.total_a, reference)));
+    if (const Piece& piece = summary.analyses.front().piece; piece.has_energy()) {
+      const double duration = piece.duration_s();
+      members.emplace_back("sound_energy_db",
+                           json_number(level_db(sound.total * duration, reference)));
+      members.emplace_back("sound_energy_dba",
+                           json_number(level_db(sound.total_a * duration, reference)));
+    }
   }
   return members;
 }
@@ -317,7 +352,12 @@ std::string summary_text(const Summary& summary) {
       fmt::format("ERP re 1 pW, rho c = {:.1f} Pa s/m, radiation loss factor {:g}; from {:g} Hz\n",
                   summary.options.air.density * summary.options.air.sound_speed,
                   summary.options.air.loss_factor, summary.options.spectrum.from_hz);
-  if (has_sound(summary)) text += sound_summary(summary.sounds.front(), ref);
+  if (has_sound(summary)) text += sound_summary(summary.sounds.front(), analysis.piece, ref);
+  if (analysis.piece.has_energy())
+    text += fmt::format(
+        "powers are means over {:.4g} s: the energy level of what does not repeat is the power "
+        "level {:+.2f} dB re 1 pJ, whatever the window\n",
+        analysis.piece.duration_s(), level_db(analysis.piece.duration_s(), 1.0));
   for (const SensorResult& result : analysis.sensors)
     text += fmt::format(
         "sensor {:<17} peak acceleration {:.4g} m/s2\n", result.sensor->name,

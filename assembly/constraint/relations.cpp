@@ -14,7 +14,7 @@
 #include "assembly/constraint/coupling_members.hpp"
 #include "assembly/constraint/tie_relations.hpp"
 #include "core/base/error.hpp"
-#include "core/base/log.hpp"
+#include "core/base/near_position.hpp"
 #include "core/mesh/mid_side_nodes.hpp"
 
 namespace clatter::assembly {
@@ -44,16 +44,18 @@ std::vector<HeldGroup> gather_supports(const PartData& part, ConstraintGraph& gr
 }
 
 /// The one of `nodes` that is nearest to a sensor.
-int32_t nearest_node(const RowMatrix& coordinates, const NodeSpec& spec,
+int32_t nearest_node(const mesh::Mesh& mesh, const NodeSpec& spec,
                      const std::vector<int32_t>& nodes) {
   const auto distance = [&](int32_t node) {
-    return (coordinates.row(node).transpose() - *spec.near).norm();
+    return (mesh.nodes.row(node).transpose() - *spec.near).norm();
   };
   const int32_t nearest = *std::min_element(
       nodes.begin(), nodes.end(), [&](int32_t a, int32_t b) { return distance(a) < distance(b); });
-  say(fmt::format("{}: node {} at ({:.4f}, {:.4f}, {:.4f}) m, {:.4f} m from the requested position",
-                  spec.name, nearest, coordinates(nearest, 0), coordinates(nearest, 1),
-                  coordinates(nearest, 2), distance(nearest)));
+  double size = 0.0;
+  for (const mesh::CellBlock& block : mesh.cells)
+    size = std::max(size, size_around(mesh.nodes, block.nodes, nearest));
+  require_near(fmt::format("{}: near: the nearest node", spec.where), *spec.near,
+               mesh.nodes.row(nearest).transpose(), size, "length_unit");
   return nearest;
 }
 
@@ -64,7 +66,7 @@ std::vector<NodeOrPoint> owners_of(const PartData& part, const NodeSpec& spec,
   if (!spec.near) return owners;
   std::vector<int32_t> nodes;
   for (const NodeOrPoint owner : owners) nodes.push_back(owner.index);
-  return {NodeOrPoint::of_node(nearest_node(part.mesh.nodes, spec, nodes))};
+  return {NodeOrPoint::of_node(nearest_node(part.mesh, spec, nodes))};
 }
 
 /// Collects the DoFs that stay coordinates.

@@ -5,7 +5,7 @@ import re
 
 import navigation
 
-COPIED = (".png",)  # files that the site contains as they are; all others have a page with their text
+COPIED = (".png", ".svg")  # files that the site contains as they are; all others have a page with their text
 NAMED = re.compile(r"[\w./-]+\.(?:cpp|hpp|py|cmake|toml|mk|txt|md|csv|bib)|Makefile")
 
 

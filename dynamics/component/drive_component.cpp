@@ -90,6 +90,10 @@ const Keys<DriveSpec>& drive_keys() {
         key.text("column", drive.column,
                  "column of the table in rpm, rad/s, deg or rad; without it the second one")
             .needs("table");
+        key.flag("unwrap", drive.unwrap,
+                 "whether angles of the table that begin anew after a turn or a cycle go on in "
+                 "whole turns")
+            .needs("table");
         key.tables("order", drive.orders, drive_order_keys()).needs("speed_rpm");
         key.number("inertia_kg_m2", drive.inertia, Range::between(1e-12, 1e12),
                    "what torques of orders turn")
@@ -107,7 +111,8 @@ std::vector<std::filesystem::path> DriveComponent::inputs() const {
 void DriveComponent::add_bodies(ModelBuilder& model) {
   if (!spec_.table.empty())
     spec_.drive = Drive(
-        read_turn_table(spec_.table, spec_.column, model.time.begin, model.time.end), spec_.start);
+        read_turn_table(spec_.table, spec_.column, spec_.unwrap, model.time.begin, model.time.end),
+        spec_.start);
   DriveSpec given = spec_;
   if (model.at_rest) given.drive = Drive(0.0, given.drive.at(model.time.begin).position);
   const auto port = [spec = given, begin = model.time.begin, &model](System&,

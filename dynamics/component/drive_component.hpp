@@ -28,6 +28,7 @@ struct DriveSpec {
   Drive drive{0.0};
   std::filesystem::path table;  // of its speed or angle over time; empty: `drive` is complete
   std::string column;
+  bool unwrap = false;              // angles of the table that begin anew go on
   double speed = 0.0, start = 0.0;  // mean [rad/s]; angle at time 0 [rad]
   std::vector<DriveOrder> orders;
   std::optional<double> inertia;                     // for torques of orders [kg m2]

@@ -91,6 +91,15 @@ Heading heading(const std::string& cell, const std::string& position) {
   return {trimmed(cell.substr(0, open)), found->second};
 }
 
+/// Refuses the name of the last column where an earlier one has it.
+void refuse_repeated(const std::vector<Heading>& headings, const std::string& position) {
+  for (size_t i = 0; i + 1 < headings.size(); ++i)
+    if (headings[i].name == headings.back().name)
+      throw InputError(
+          fmt::format("{}: columns {} and {} are both \"{}\", expected different names", position,
+                      i + 1, headings.size(), headings[i].name));
+}
+
 double number(const std::string& cell, const std::string& position, const std::string& column) {
   double value = 0.0;
   const auto* begin = cell.data();
@@ -138,7 +147,10 @@ CsvColumns read_csv(const std::filesystem::path& path, const std::string& column
     const auto position = fmt::format("{}:{}", path.string(), line);
     const auto row = cells(text);
     if (headings.empty()) {
-      for (const auto& cell : row) headings.push_back(heading(cell, position));
+      for (const auto& cell : row) {
+        headings.push_back(heading(cell, position));
+        refuse_repeated(headings, position);
+      }
       picked = column_index(headings, column, position);
       table.abscissa_name = headings[0].name;
       table.abscissa_unit = headings[0].unit.si;
@@ -169,6 +181,17 @@ CsvColumns read_csv(const std::filesystem::path& path, const std::string& column
     throw InputError(fmt::format("{}: found no rows of numbers below a header", path.string()));
   }
   return table;
+}
+
+void require_covered(const CsvColumns& table, const std::filesystem::path& path, double begin,
+                     double end) {
+  constexpr double kRounding = 1e-9;  // of the span
+  const double slack = kRounding * (end - begin);
+  if (table.x.front() <= begin + slack && table.x.back() >= end - slack) return;
+  throw InputError(
+      fmt::format("{}:{}: the table covers {:.12g} to {:.12g} s, expected {:.12g} to "
+                  "{:.12g} s",
+                  path.string(), table.lines.back(), table.x.front(), table.x.back(), begin, end));
 }
 
 }  // namespace clatter::dynamics

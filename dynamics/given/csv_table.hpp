@@ -23,8 +23,13 @@ struct CsvColumns {
 ///
 /// Separators: comma or semicolon. Units: deg, rad, rad/s, rpm, s, ms, us, Pa, kPa, bar, MPa, N,
 /// kN, N m, N s/m, N s/mm, m, mm, um, K, degC, 1; each is converted to SI. InputError "file:line:
-/// ..." for a missing header, an unknown unit, a missing or extra cell, a value that is not a
-/// finite number, an abscissa that does not ascend.
+/// ..." for a missing header, an unknown unit, a name of two columns, a missing or extra cell, a
+/// value that is not a finite number, an abscissa that does not ascend.
 CsvColumns read_csv(const std::filesystem::path& path, const std::string& column);
+
+/// Refuses a table over time that ends before `end` [s] or begins after `begin` [s] by more than
+/// rounding.
+void require_covered(const CsvColumns& table, const std::filesystem::path& path, double begin,
+                     double end);
 
 }  // namespace clatter::dynamics

@@ -135,11 +135,7 @@ Spline read_time_table(const std::filesystem::path& path, const std::string& col
                        const std::string& unit, Spline::Kind kind, double begin, double end) {
   CsvColumns table = read_csv(path, column);
   check_units(table, path, "s", unit);
-  if (table.x.front() > begin || table.x.back() < end) {
-    throw InputError(fmt::format(
-        "{}:{}: the table covers {:.6g} to {:.6g} s, expected {:.6g} to {:.6g} s", path.string(),
-        table.lines.back(), table.x.front(), table.x.back(), begin, end));
-  }
+  require_covered(table, path, begin, end);
   return Spline(kind, std::move(table.x), std::move(table.y));
 }
 

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -28,6 +30,40 @@ std::vector<double> second_derivatives(const std::vector<double>& x, const std::
   }
   for (size_t i = n - 2; i > 0; --i) second[i] -= upper[i] * second[i + 1];
   return second;
+}
+
+/// Steps of more than half a turn against the direction of most: there an angle begins anew.
+std::vector<size_t> wraps(const std::vector<double>& angle, double typical) {
+  std::vector<size_t> rows;
+  for (size_t i = 1; i < angle.size(); ++i) {
+    const double step = angle[i] - angle[i - 1];
+    if (std::abs(step) > std::numbers::pi && step * typical < 0.0) rows.push_back(i);
+  }
+  return rows;
+}
+
+/// The median of the steps from row to row.
+double typical_step(const std::vector<double>& angle) {
+  std::vector<double> steps;
+  for (size_t i = 1; i < angle.size(); ++i) steps.push_back(angle[i] - angle[i - 1]);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+/// Lets angles go on in whole turns at their wraps.
+void unwrap_angles(std::vector<double>& angle, const std::vector<size_t>& wraps, double typical) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  double added = 0.0;
+  const std::vector<double> given = angle;
+  auto wrap = wraps.begin();
+  for (size_t i = 1; i < angle.size(); ++i) {
+    if (wrap != wraps.end() && *wrap == i) {
+      added += kTurn * std::round((typical - (given[i] - given[i - 1])) / kTurn);
+      ++wrap;
+    }
+    angle[i] += added;
+  }
 }
 
 }  // namespace
@@ -77,7 +113,7 @@ Motion<double> TurnTable::at(double time) const {
   return motion;
 }
 
-TurnTable read_turn_table(const std::filesystem::path& path, const std::string& column,
+TurnTable read_turn_table(const std::filesystem::path& path, const std::string& column, bool unwrap,
                           double begin, double end) {
   CsvColumns table = read_csv(path, column);
   const auto fail = [&](int line, const std::string& said) {
@@ -92,11 +128,17 @@ TurnTable read_turn_table(const std::filesystem::path& path, const std::string& 
                      "or [rad]",
                      table.name, table.unit));
   if (table.x.size() < 2) fail(table.lines.back(), "found one row, expected at least two");
-  if (table.x.front() > begin || table.x.back() < end)
-    fail(table.lines.back(),
-         fmt::format("the table covers {:.6g} to {:.6g} s, expected {:.6g} to {:.6g} s",
-                     table.x.front(), table.x.back(), begin, end));
+  require_covered(table, path, begin, end);
   if (table.unit == "rad/s") return TurnTable::of_speed(std::move(table.x), table.y);
+  const double typical = typical_step(table.y);
+  const std::vector<size_t> anew = wraps(table.y, typical);
+  if (!anew.empty() && !unwrap)
+    fail(table.lines[anew.front()],
+         fmt::format(
+             "{}: found {:g} deg after {:g} deg while other rows go the other way: an angle "
+             "that begins anew throws the shaft back; with unwrap = true it goes on",
+             table.name, table.y[anew.front()] / kDegree, table.y[anew.front() - 1] / kDegree));
+  unwrap_angles(table.y, anew, typical);
   TurnTable turn = TurnTable::of_angle(table.x, table.y);
   const Overshoot found =
       find_overshoot([&](double at) { return turn.at(at).position; }, table.x, table.y);

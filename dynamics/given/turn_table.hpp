@@ -31,8 +31,9 @@ class TurnTable {
 };
 
 /// Reads a table over time [s] that must cover [begin, end]: a column in rad/s or rpm is a speed,
-/// one in rad or deg an angle. InputError "file:line: ..." otherwise.
-TurnTable read_turn_table(const std::filesystem::path& path, const std::string& column,
+/// one in rad or deg an angle. Angles that begin anew after a turn or a cycle, as 0 .. 359, 0 ..,
+/// are refused, or with `unwrap` go on in whole turns. InputError "file:line: ..." otherwise.
+TurnTable read_turn_table(const std::filesystem::path& path, const std::string& column, bool unwrap,
                           double begin, double end);
 
 }  // namespace clatter::dynamics

@@ -27,6 +27,7 @@ constexpr size_t kHopeless = 2;        // times as many slivers or folds: the pa
 constexpr int64_t kMostGrowth = 2;     // times as many cells: beyond that slivers are only reported
 constexpr double kManySlivers = 0.01;  // of the cells
 constexpr size_t kManyFolds = 500;     // HighOrder takes 0.2 s for each
+constexpr int kHighOrders = 3;         // the next one may unfold what one left
 constexpr double kLargestPull = 0.05;  // of the edge
 constexpr double kPulledRatio = 0.05;  // smallest scaled Jacobian after straightening
 
@@ -250,7 +251,8 @@ Repair make_valid_mesh(GmshSession& session, const PartGeometry& part, const Mes
     if (folded.min_ratio < kQualityFloor.scaled_jacobian && (last || folded.invalid.empty()) &&
         before.invalid.size() <= kManyFolds &&
         (!folded.invalid.empty() || effect_of_squeezed(mesh) > kHarmless))
-      optimise(session, part, settings, metres_per_unit, mesh, folded, repair);
+      for (int trial = 0; trial < kHighOrders && (trial == 0 || !folded.invalid.empty()); ++trial)
+        optimise(session, part, settings, metres_per_unit, mesh, folded, repair);
     if (folded.invalid.empty()) return repair;
     if (last) break;
     repair.optimised = false;

@@ -62,9 +62,13 @@ const Keys<LineRule>& line_keys() {
                     "frequencies, to which the nearest lines of the spectrum are taken");
         key.numbers("orders", lines.orders, Range::positive(),
                     "the same as engine orders, multiples of the crank's speed");
+        key.number("from_hz", lines.from_hz, Range::not_negative(),
+                   "every line of the spectrum from here, besides those above")
+            .required_with("to_hz");
+        key.number("to_hz", lines.to_hz, Range::positive(), "up to here").required_with("from_hz");
         key.integer("strongest", lines.strongest, {0, 1000},
-                    "with neither, this many of the highest peaks of the A-weighted sound power, "
-                    "or of the equivalent radiated power without a sound file");
+                    "with none of these, this many of the highest peaks of the A-weighted sound "
+                    "power, or of the equivalent radiated power without a sound file");
         quantities(key, lines.quantities);
       });
   return keys;

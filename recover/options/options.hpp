@@ -2,6 +2,7 @@
 #pragma once
 // The user's options. Each default is defined once, here.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,10 +47,12 @@ struct FrameRule {
 struct LineRule {
   std::vector<double> frequencies_hz;  // the nearest lines are taken
   std::vector<double> orders;          // engine orders: multiples of the speed of the crank
-  int strongest = 6;                   // with neither: the highest peaks of the A-weighted power
+  std::optional<double> from_hz;       // with to_hz: every line of the spectrum between both
+  std::optional<double> to_hz;
+  int strongest = 6;  // with none of these: the highest peaks of the A-weighted power
   Quantities quantities;
 
-  bool requested() const { return !frequencies_hz.empty() || !orders.empty(); }
+  bool requested() const { return !frequencies_hz.empty() || !orders.empty() || from_hz; }
 };
 
 /// Parts of the field file that may be left out, and its precision.

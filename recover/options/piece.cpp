@@ -263,7 +263,7 @@ Piece window(const RunClock& clock, const WindowRule& rule, const std::string& o
         "{}: window '{}': found {:g} to {:g} {}, expected a span inside the run, {:g} to {:g}",
         origin, rule.name, span.from, span.to, span.in_seconds ? "s" : "deg", first, last));
   piece.first = first_at(axis, from);
-  piece.count = std::min<int64_t>(first_at(axis, to) + 1, axis.size()) - piece.first;
+  piece.count = first_at(axis, to) - piece.first;
   if (piece.count < 2)
     throw InputError(fmt::format("{}: window '{}': found {} samples, expected at least 2", origin,
                                  rule.name, piece.count));

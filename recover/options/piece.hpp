@@ -37,7 +37,7 @@ struct SegmentRule {
 struct WindowRule {
   std::string name = "ftdc";
   Span span{};
-  Taper taper = Taper::kTukey;
+  Taper taper = Taper::kNone;
   Domain domain = Domain::kTime;
   SegmentRule segments{};
   std::optional<double> cycles{};  // instead of the span, until it is read
@@ -63,6 +63,9 @@ struct Piece {
   double start_s() const { return first_s - ftdc_s; }
   double duration_s() const { return static_cast<double>(count) * step_s; }
   int64_t segments() const { return hop > 0 ? (count - segment) / hop + 1 : 1; }
+  /// Whether the powers are means over an event, of which the energy power * duration_s() is the
+  /// result: a taper or segments are for what goes on.
+  bool has_energy() const { return !periodic && taper == Taper::kNone && segments() == 1; }
   /// Highest frequency at the mean speed for spectra up to `to_hz`: over the angle, an order is
   /// below `to_hz` at every speed in the piece, and within the accuracy of the resampling.
   double limit_hz(double to_hz, double run_step_s) const;
@@ -73,7 +76,8 @@ struct Piece {
 /// @throws InputError when the run is shorter than a cycle, or its speed varies too much
 Piece last_cycle(const RunClock& clock, const std::string& origin);
 
-/// The samples in a span; in degrees about the last firing TDC for which the run covers the span.
+/// The samples in a span, the one at its end excluded, so that tones that fit the span have lines
+/// of their own; in degrees about the last firing TDC for which the run covers the span.
 /// @throws InputError when the run does not cover it, it holds fewer than 2 samples, or segments do
 /// not fit
 Piece window(const RunClock& clock, const WindowRule& rule, const std::string& origin);

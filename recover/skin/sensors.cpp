@@ -3,12 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <set>
 
 #include "core/base/error.hpp"
-#include "core/base/log.hpp"
-#include "core/base/units.hpp"
+#include "core/base/near_position.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -24,16 +22,10 @@ Sensor from_set(const std::string& name, const rom::DofSet& set, const rom::Redu
 Sensor from_point(const SensorRule& rule, const rom::Skin& skin, const rom::SkinRows& T,
                   const SkinGeometry& geometry) {
   Eigen::Index node;
-  const double distance = std::sqrt(
-      (skin.nodes.rowwise() - rule.position->transpose()).rowwise().squaredNorm().minCoeff(&node));
-  const double size = (skin.nodes.colwise().maxCoeff() - skin.nodes.colwise().minCoeff()).norm();
-  if (distance > size)
-    throw InputError(
-        fmt::format("sensor '{}': the nearest node of the skin lies {:.3g} m from its position, "
-                    "farther than the part is large, {:.3g} m: positions are in metres",
-                    rule.name, distance, size));
-  say(fmt::format("sensor {}: the nearest node of the skin, {:.3g} mm from its position", rule.name,
-                  distance / kMilli));
+  (skin.nodes.rowwise() - rule.position->transpose()).rowwise().squaredNorm().minCoeff(&node);
+  require_near(fmt::format("sensor '{}': the nearest node of the skin", rule.name), *rule.position,
+               skin.nodes.row(node).transpose(),
+               size_around(skin.nodes, skin.triangles, static_cast<int32_t>(node)), "metres");
   std::vector<Eigen::Vector3d> directions;
   Sensor sensor{.name = rule.name, .kind = "skin"};
   if (rule.direction) {

@@ -164,6 +164,12 @@ void write_run_sound(H5File& file, const Analysis& analysis, const RunSound& sou
   file.set(at, "power_w", sound.total);
   file.set(at, "power_db", level_db(sound.total, references.power));
   file.set(at, "power_dba", level_db(sound.total_a, references.power));
+  if (analysis.piece.has_energy()) {
+    const double duration = analysis.piece.duration_s();
+    file.set(at, "energy_j", sound.total * duration);
+    file.set(at, "energy_db", level_db(sound.total * duration, references.power));
+    file.set(at, "energy_dba", level_db(sound.total_a * duration, references.power));
+  }
   for (const MicrophoneResult& microphone : sound.microphones) {
     const std::string name = at + "/microphones/" + microphone.name;
     put_complex<Eigen::VectorXd>(file, name + "/pressure", microphone.pressure, "Pa",
@@ -178,11 +184,16 @@ void write_run_sound(H5File& file, const Analysis& analysis, const RunSound& sou
   write_directivity(file, analysis.piece.name, sound.directivity);
 }
 
-std::string sound_summary(const RunSound& sound, const LevelReferences& references) {
+std::string sound_summary(const RunSound& sound, const Piece& piece,
+                          const LevelReferences& references) {
   std::string text = fmt::format(
       "sound power {:.1f} dB, {:.1f} dB(A) re 1 pW (boundary elements up to {:g} Hz, ERP above)\n",
       level_db(sound.total, references.power), level_db(sound.total_a, references.power),
       sound.to_hz);
+  if (piece.has_energy())
+    text += fmt::format("sound energy {:.1f} dB, {:.1f} dB(A) re 1 pJ\n",
+                        level_db(sound.total * piece.duration_s(), references.power),
+                        level_db(sound.total_a * piece.duration_s(), references.power));
   for (const MicrophoneResult& microphone : sound.microphones)
     text += fmt::format("microphone {:<14} {:.1f} dB, {:.1f} dB(A) re 20 uPa\n", microphone.name,
                         microphone.total_db, microphone.total_dba);

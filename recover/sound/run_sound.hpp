@@ -53,7 +53,8 @@ RunSound run_sound(const SoundTable& table, const Analysis& analysis, const Pane
 void write_run_sound(H5File& file, const Analysis& analysis, const RunSound& sound,
                      const LevelReferences& references);
 
-/// Sound power and levels at the microphones as lines of the summary.
-std::string sound_summary(const RunSound& sound, const LevelReferences& references);
+/// Sound power, of an event its energy, and levels at the microphones as lines of the summary.
+std::string sound_summary(const RunSound& sound, const Piece& piece,
+                          const LevelReferences& references);
 
 }  // namespace clatter::recover

@@ -17,21 +17,27 @@
 namespace clatter::recover {
 namespace {
 
-constexpr const char* kSound = "analysis/cycle/sound";
+/// The piece of the run that is heard: the cycle, else the first window with microphones.
+std::string heard_piece(const H5File& file) {
+  std::vector<std::string> pieces = file.list("analysis");
+  std::ranges::stable_partition(pieces, [](const std::string& name) { return name == "cycle"; });
+  for (const std::string& name : pieces)
+    if (file.has("analysis/" + name + "/sound/microphones")) return name;
+  throw InputError(fmt::format(
+      "{}: analysis: found no microphones, expected a field with a cycle or a window in "
+      "one segment and `sound` in its field.toml",
+      file.path().string()));
+}
 
 /// Appends the lowest bytes of a number, the lowest first.
 void append_little_endian(std::string& bytes, uint32_t value, int count) {
   for (int i = 0; i < count; ++i) bytes.push_back(static_cast<char>(value >> (8 * i) & 0xFF));
 }
 
-Eigen::VectorXcd read_pressure(const H5File& file, const std::string& microphone) {
-  const std::string group = std::string(kSound) + "/microphones";
+Eigen::VectorXcd read_pressure(const H5File& file, const std::string& piece,
+                               const std::string& microphone) {
+  const std::string group = "analysis/" + piece + "/sound/microphones";
   const std::vector<std::string> names = file.list(group);
-  if (names.empty())
-    throw InputError(
-        fmt::format("{}: {}: found no microphones, expected a field with a cycle and "
-                    "`sound` in its field.toml",
-                    file.path().string(), group));
   if (std::find(names.begin(), names.end(), microphone) == names.end())
     throw InputError(fmt::format("{}: microphones: found [{}], expected {}", file.path().string(),
                                  fmt::join(names, ", "), microphone));
@@ -94,8 +100,9 @@ std::string wav_bytes(const Eigen::VectorXd& pressure, double full_scale_pa) {
 WavSummary write_wav(const std::filesystem::path& field, const std::string& microphone,
                      const WavRule& rule, const std::filesystem::path& wav) {
   const H5File file = open_artefact(field, kFieldSchema);
-  const Eigen::VectorXcd lines = read_pressure(file, microphone);
-  const double spacing_hz = file.get_double("analysis/cycle", "line_spacing_hz");
+  const std::string piece = heard_piece(file);
+  const Eigen::VectorXcd lines = read_pressure(file, piece, microphone);
+  const double spacing_hz = file.get_double("analysis/" + piece, "line_spacing_hz");
   const Eigen::VectorXd pressure = repeated_cycle(lines, spacing_hz, rule.seconds);
   WavSummary out{.full_scale_pa = rule.full_scale_pa,
                  .peak_pa = pressure.cwiseAbs().maxCoeff(),

@@ -32,6 +32,21 @@ std::vector<ChosenLine> strongest_peaks(const Eigen::VectorXd& frequency_hz,
   return peaks;
 }
 
+/// Lines with the frequency 0 are a mean, not a motion.
+std::vector<ChosenLine> lines_between(const Eigen::VectorXd& frequency_hz, double from_hz,
+                                      double to_hz) {
+  std::vector<ChosenLine> lines;
+  for (Eigen::Index k = 1; k < frequency_hz.size(); ++k)
+    if (frequency_hz[k] * kSlack >= from_hz && frequency_hz[k] <= to_hz * kSlack)
+      lines.push_back({k, frequency_hz[k]});
+  if (lines.empty())
+    throw InputError(
+        fmt::format("lines: no line of the spectrum lies from {:g} to {:g} Hz: lines are {:g} Hz "
+                    "apart",
+                    from_hz, to_hz, frequency_hz[1] - frequency_hz[0]));
+  return lines;
+}
+
 }  // namespace
 
 FrequencyLimit frequency_limit(const SpectrumBand& requested, double valid_to_hz, double step_s) {
@@ -57,16 +72,22 @@ std::vector<ChosenLine> choose_lines(const LineRule& rule, const SpectrumBand& b
   std::vector<double> requested_hz = rule.frequencies_hz;
   for (double order : rule.orders) requested_hz.push_back(order * analysis.speed_hz);
 
-  std::vector<ChosenLine> lines;
-  for (double f : requested_hz) {
+  const auto refuse_beyond = [&](double f) {
     if (f > limit.to_hz * kSlack)
       throw InputError(fmt::format("lines: found {:g} Hz, expected at most {:g} Hz, {}", f,
                                    limit.to_hz, limit.reason));
+  };
+  std::vector<ChosenLine> lines;
+  if (rule.from_hz) {
+    refuse_beyond(*rule.to_hz);
+    lines = lines_between(frequency_hz, *rule.from_hz, *rule.to_hz);
+  }
+  for (double f : requested_hz) {
+    refuse_beyond(f);
     const Eigen::Index nearest = std::lround(f / analysis.velocity.spacing_hz());
     lines.push_back({std::clamp<Eigen::Index>(nearest, 1, frequency_hz.size() - 1), f});
   }
-  if (requested_hz.empty())
-    lines = strongest_peaks(frequency_hz, power, band.from_hz, rule.strongest);
+  if (!rule.requested()) lines = strongest_peaks(frequency_hz, power, band.from_hz, rule.strongest);
   std::sort(lines.begin(), lines.end(),
             [](const ChosenLine& a, const ChosenLine& b) { return a.index < b.index; });
   const auto same = [](const ChosenLine& a, const ChosenLine& b) { return a.index == b.index; };

@@ -26,10 +26,11 @@ struct ChosenLine {
   double requested_hz = 0.0;  // as requested; otherwise the line's own frequency
 };
 
-/// The lines nearest to the requested frequencies and orders, ascending; with neither the strongest
-/// local peaks of the A-weighted power inside the spectrum's band.
+/// The lines nearest to the requested frequencies and orders, and those of the requested band,
+/// ascending; with none of these the strongest local peaks of the A-weighted power inside the
+/// spectrum's band.
 /// @param power radiated per line of the analysis [W], n_l: the sound power, or else the ERP
-/// @throws InputError for a frequency above the limit, or orders without a crank
+/// @throws InputError for a frequency above the limit, orders without a crank, or an empty band
 std::vector<ChosenLine> choose_lines(const LineRule& rule, const SpectrumBand& band,
                                      const Analysis& analysis, const Eigen::VectorXd& power,
                                      const FrequencyLimit& limit);

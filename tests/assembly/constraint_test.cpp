@@ -259,6 +259,14 @@ TEST(Constraints, ConflictsNameBothSides) {
                {"coupling one", "point b rz", "support support_1"});
 }
 
+TEST(Constraints, SensorFartherFromItsSurfaceThanAnElementIsRefusedWithItsUnit) {
+  expect_parts(constraint_refusal(bar(),
+                                  "[[sensor]]\nname = \"s\"\nsurface = \"z1\"\nnear = [0.0, "
+                                  "0.0, 300.0]\n"),
+               {"near: the nearest node lies at (0, 0, 0.3) m",
+                "expected at most an element's size", "this one fits in millimetres"});
+}
+
 TEST(Constraints, CyclesAreToldAllTheWayRound) {
   const mesh::Mesh mesh = bar();
   const std::string points =

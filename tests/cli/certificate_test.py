@@ -86,6 +86,12 @@ class Certificate(stages.PipelineTest):
         self.assertIn("verified by the full model", self.info())
         self.assertEqual(self.condense("--verify", "0")["verified_to_hz"], found["accurate_to_hz"])
 
+    def test_a_request_asks_for_the_verification_and_the_command_line_comes_before_it(self):
+        with open(self.folder / "beam.rom.toml", "a") as toml:
+            toml.write("verify_hz = 2000\n")
+        self.assertEqual(self.condense()["verified_to_hz"], 2000.0)
+        self.assertEqual(self.condense("--verify", "3000")["verified_to_hz"], 3000.0)
+
     def test_a_meaningless_frequency_to_verify_is_refused(self):
         done = stages.run_stage("condense", *self.command("condense"), "--verify", "-5", folder=self.folder)
         self.assertEqual(done.returncode, 2)

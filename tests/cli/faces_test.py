@@ -136,7 +136,7 @@ class Faces(OfATube):
 
     def test_each_face_has_its_number_where_it_is_seen(self):
         self.mesh("faces", "tube.step", "-o", "tube.faces.h5")
-        from clatter_tools.artefact import open_artefact
+        from clatter.artefact import open_artefact
         from clatter_tools.plots import faces
         file = open_artefact(self.folder / "tube.faces.h5", "faces")
         triangles = file["triangles"][()]

@@ -21,6 +21,8 @@ import stages  # noqa: E402
 # Blocks that take long, or that need more than a folder: README, first words, and the test that runs the same.
 ELSEWHERE = [("README.md", "make demo", "TruckDiesel"),
              ("README.md", "make check", None),  # this test is part of it
+             ("README.md", "make build", None),  # the programs of this test
+             ("README.md", "make -C samples/beam", "Beam"),
              ("modal/README.md", "clatter-modal shape", "WarmBore"),  # needs a bore
              ("recover/README.md", "clatter-recover listen", "Program"),  # needs a cycle
              ("samples/beam/README.md", "make CLATTER_BIN", "Beam"),

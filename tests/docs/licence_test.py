@@ -5,7 +5,7 @@ import unittest
 import repository
 
 LINE = "SPDX-License-Identifier: GPL-3.0-or-later"
-COMMENTED = (".cpp", ".hpp", ".py", ".cmake", ".mk", ".toml", ".yml", ".yaml", ".cff", ".in", ".awk", ".css")
+COMMENTED = (".cpp", ".hpp", ".py", ".cmake", ".mk", ".toml", ".yml", ".yaml", ".cff", ".in", ".awk", ".css", ".svg")
 NAMED = {"CMakeLists.txt", "Makefile", "Doxyfile", "setup", "clatter", "compare", "packages.txt", ".clang-format", ".clang-tidy"}
 
 

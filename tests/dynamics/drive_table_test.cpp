@@ -142,12 +142,32 @@ TEST_F(DriveTables, OrdersOfATorqueAreTheSpeedThatItMakesOfTheInertia) {
   EXPECT_NEAR(last_y(start + "torque_n_m = 1\nat_speed_rpm = 600\n"), expected, 1e-8);
 }
 
+TEST_F(DriveTables, AnglesThatBeginAnewAreRefusedOrGoOnInWholeTurns) {
+  for (const double period : {360.0, 720.0}) {
+    std::string wrapped = "time [s], angle [deg]\n", steady = wrapped;
+    for (int i = 0; i <= 40; ++i) {
+      const double angle = 540.0 - 54.0 * i;  // backwards, over several wraps
+      wrapped +=
+          fmt::format("{}, {:.12g}\n", 0.025 * i, angle - period * std::floor(angle / period));
+      steady += fmt::format("{}, {:.12g}\n", 0.025 * i, angle);
+    }
+    write("wrapped.csv", wrapped);
+    write("steady.csv", steady);
+    test::expect_parts(
+        test::refusal_of([&] { build_model(scene("table = \"wrapped.csv\"\n"), {}); }),
+        {"wrapped.csv:", "an angle that begins anew throws the shaft back", "unwrap = true"});
+    EXPECT_NEAR(last_y("table = \"wrapped.csv\"\nunwrap = true\n"),
+                last_y("table = \"steady.csv\"\n"), 1e-9);
+  }
+}
+
 TEST_F(DriveTables, AreRefusedByPlace) {
   write("speed.csv", "time [s], speed [rpm]\n0, 90\n0.2, 90\n1, 90\n");
   write("short.csv", "time [s], speed [rpm]\n0, 90\n0.2, 90\n");
   write("force.csv", "time [s], force [N]\n0, 90\n1, 90\n");
   write("turn.csv", "angle [deg], speed [rpm]\n0, 90\n1, 90\n");
   write("one.csv", "time [s], speed [rpm]\n0, 90\n");
+  write("twice.csv", "time [s], speed [rpm], speed [rpm]\n0, 90, 80\n1, 90, 80\n");
   const auto expect = [&](const std::string& drive, const std::string& said) {
     const std::string found = test::refusal_of([&] { build_model(scene(drive), {}); });
     EXPECT_NE(found.find(said), std::string::npos) << found;
@@ -162,6 +182,8 @@ TEST_F(DriveTables, AreRefusedByPlace) {
          "force.csv:1: force: found [N], expected a speed in [rpm] or [rad/s], or an angle");
   expect("table = \"turn.csv\"\n", "turn.csv:1: angle: found [rad], expected a time");
   expect("table = \"one.csv\"\n", "one.csv:2: found one row, expected at least two");
+  expect("table = \"twice.csv\"\n",
+         "twice.csv:1: columns 2 and 3 are both \"speed\", expected different names");
   expect("", "drive[0].speed_rpm: ");
   const std::string torque = "[[drive.order]]\norder = 1\ntorque_n_m = 1\n";
   expect("speed_rpm = 90\n" + torque, "drive[0].inertia_kg_m2: is missing");

@@ -325,6 +325,30 @@ TEST(FieldFile, StrongestPeaksAreTakenWhenNoFrequencyIsAskedFor) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(FieldFile, EveryLineOfABandIsTakenBesidesTheFrequenciesAskedFor) {
+  const RunPlan plan;  // lines are half an order apart, 50/3 Hz
+  const auto folder = fresh_folder("band");
+  const auto run =
+      write_run(folder, model_on(box({1, 1, 1}, 1), random_rows(box({1, 1, 1}, 1), 2, 5), 2000.0),
+                plan, turning(plan, 12.0));
+  const auto path = recover_file(
+      run,
+      "[lines]\nfrequencies_hz = [1003, 400]\nfrom_hz = 400\nto_hz = 440\n[frames]\non = false\n");
+  const std::vector<double> hz =
+      open_artefact(path, kFieldSchema).read_doubles("lines/frequency_hz");
+  ASSERT_EQ(hz.size(), 4u);
+  const std::vector<double> expected{400.0, 400.0 + 50.0 / 3.0, 400.0 + 100.0 / 3.0, 1000.0};
+  for (size_t i = 0; i < hz.size(); ++i) EXPECT_NEAR(hz[i], expected[i], 1e-9);
+  const auto refusal = [&](const std::string& lines) {
+    return test::refusal_of([&] { recover_file(run, "[lines]\n" + lines); });
+  };
+  test::expect_parts(refusal("from_hz = 405\nto_hz = 410\n"),
+                     {"no line of the spectrum lies from 405 to 410 Hz", "16.6667 Hz apart"});
+  test::expect_parts(refusal("from_hz = 405\nto_hz = 2500\n"), {"2500 Hz, expected at most"});
+  test::expect_parts(refusal("from_hz = 405\n"), {"to_hz"});
+  std::filesystem::remove_all(folder);
+}
+
 TEST(FieldFile, CertificateShowsAMotionThatDoesNotRepeatAndWhatLiesAboveTheSpectra) {
   const RunPlan plan;
   const Mesh6 mesh = box({1, 1, 1}, 1);

@@ -59,16 +59,24 @@ TEST(Sensors, OfAPositionSaysItsDistanceAndIsRefusedInAnotherUnit) {
   const auto sensors = find_sensors({{.name = "top", .position = Eigen::Vector3d(1.0, 1.0, 1.003)}},
                                     model, T, geometry);
   const std::string said = ::testing::internal::GetCapturedStderr();
-  EXPECT_NE(said.find("sensor top: the nearest node of the skin, 3 mm from its position"),
-            std::string::npos)
+  EXPECT_NE(
+      said.find("sensor 'top': the nearest node of the skin lies at (1, 1, 1) m, 3 mm from the "
+                "requested position"),
+      std::string::npos)
       << said;
   EXPECT_EQ(sensors.at(0).position.row(0), Eigen::RowVector3d(1, 1, 1));
   test::expect_parts(test::refusal_of([&] {
                        find_sensors({{.name = "top", .position = Eigen::Vector3d(0, 0, 1000)}},
                                     model, T, geometry);
                      }),
-                     {"sensor 'top': the nearest node of the skin lies ",
-                      "farther than the part is large, 1.73 m: positions are in metres"});
+                     {"sensor 'top': the nearest node of the skin lies at (0, 0, 1) m",
+                      "expected at most an element's size there, 1.41e+03 mm: positions are in "
+                      "metres, this one fits in millimetres"});
+  EXPECT_EQ(test::refusal_of([&] {
+              find_sensors({{.name = "top", .position = Eigen::Vector3d(0, 0, 4)}}, model, T,
+                           geometry);
+            }).find("fits"),
+            std::string::npos);
 }
 
 TEST(Skin, BoxHasItsAreaVolumeAndClosesExactly) {

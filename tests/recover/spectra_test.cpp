@@ -119,12 +119,12 @@ TEST(Pieces, WindowLiesAboutTheLastFiringTdcThatFits) {
   const Piece piece =
       window(steady_clock(720, 1441, 0.0), {"ftdc", {-10, 60, false}, Taper::kHann}, "run");
   EXPECT_EQ(piece.first, 710);
-  EXPECT_EQ(piece.count, 71);
+  EXPECT_EQ(piece.count, 70);
   EXPECT_NEAR(piece.ftdc_deg, 720.0, 1e-9);
   const Piece seconds =
       window(steady_clock(720, 1441, 0.0), {"w", {0.01, 0.02, true}, Taper::kNone}, "run");
   EXPECT_EQ(seconds.first, 120);
-  EXPECT_EQ(seconds.count, 121);
+  EXPECT_EQ(seconds.count, 120);
 }
 
 TEST(Pieces, WhatTheRunDoesNotHoldIsRefused) {

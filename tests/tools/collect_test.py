@@ -11,7 +11,8 @@ import numpy as np
 import synthetic
 import synthetic_drive
 from clatter_command import clatter
-from clatter_tools import artefact, collect, orders
+from clatter import artefact
+from clatter_tools import collect, orders
 
 SPEEDS = (1000, 2000, 3000)
 AT = "analysis/cycle"

@@ -19,7 +19,7 @@ import numpy as np  # noqa: E402
 import synthetic  # noqa: E402
 import synthetic_drive  # noqa: E402
 from clatter_command import clatter  # noqa: E402
-from clatter_tools import artefact, chains  # noqa: E402
+from clatter import artefact, chains  # noqa: E402
 from clatter_tools.plots import campbell, drive, drive_film, loop, over_cycle, speed, style, valves  # noqa: E402
 from synthetic_drive import LINKS, PITCH, RADIUS, SLACK, SPAN, SWING, TIGHT  # noqa: E402
 

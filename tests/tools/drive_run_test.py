@@ -8,7 +8,7 @@ import unittest
 
 import numpy as np
 from clatter_command import clatter
-from clatter_tools import artefact, chains
+from clatter import artefact, chains
 
 DYNAMICS = pathlib.Path(os.environ.get("CLATTER_BIN", "")) / "clatter-dynamics"
 RPM, PITCH, TEETH = 3000.0, 8e-3, 20

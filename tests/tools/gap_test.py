@@ -9,7 +9,7 @@ import numpy as np
 
 import synthetic
 from clatter_command import clatter
-from clatter_tools.artefact import BadArtefact, open_artefact
+from clatter.artefact import BadArtefact, open_artefact
 from clatter_tools.warm_surfaces import Surfaces
 
 CONFIG = """engine.stroke_mm = 120

@@ -7,7 +7,7 @@ import tomllib
 import unittest
 
 from clatter_command import clatter
-from clatter_tools.errors import BadArtefact
+from clatter.errors import BadArtefact
 from clatter_tools.keys import files, pages, rows, schema, schema_line, words
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]

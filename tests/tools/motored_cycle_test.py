@@ -7,8 +7,8 @@ import tempfile
 import unittest
 
 from clatter_command import clatter
+from clatter.artefact import BadArtefact
 from clatter_tools import motored_cycle
-from clatter_tools.artefact import BadArtefact
 from clatter_tools.motored_cycle import MotoredCycle
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]

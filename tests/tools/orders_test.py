@@ -9,7 +9,8 @@ import numpy as np
 
 import synthetic
 import synthetic_drive
-from clatter_tools import artefact, orders
+from clatter import artefact
+from clatter_tools import orders
 
 
 def uneven(cycles, samples):

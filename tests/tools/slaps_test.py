@@ -10,8 +10,8 @@ import h5py
 
 import synthetic
 from clatter_command import clatter
+from clatter.artefact import BadArtefact
 from clatter_tools import collect, parameters, slaps
-from clatter_tools.artefact import BadArtefact
 
 PARAMETERS = """
 [[parameter]]

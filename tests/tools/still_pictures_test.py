@@ -11,7 +11,8 @@ import numpy as np
 
 import synthetic
 import synthetic_page
-from clatter_tools import artefact, fields, findings, orders, report, weighting
+from clatter import artefact, fields
+from clatter_tools import findings, orders, report, weighting
 from clatter_tools.plots import accelerations, campbell, film, piston, radiation, raster, shape
 
 

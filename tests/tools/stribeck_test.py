@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 import synthetic
 from clatter_command import clatter
-from clatter_tools.artefact import BadArtefact, open_artefact
+from clatter.artefact import BadArtefact, open_artefact
 from clatter_tools.plots import stribeck
 
 CONFIG = "engine.speed_rpm = 600\nengine.stroke_mm = 100\ncontact.bore_mm = 100\ncontact.viscosity_pa_s = {}\n"

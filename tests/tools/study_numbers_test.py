@@ -10,8 +10,8 @@ import h5py
 import numpy as np
 import synthetic
 
+from clatter.artefact import BadArtefact
 from clatter_tools import slap
-from clatter_tools.artefact import BadArtefact
 from clatter_tools.keys import rows, study_keys
 from clatter_tools.study import convergence, effect_keys, effects, plan, quantities, toml_text
 

@@ -10,7 +10,7 @@ import unittest
 
 from study_stand_ins import MAKEFILE, SECONDS, SMALL, SOURCE, TAU, StandIns, exact
 
-from clatter_tools.artefact import BadArtefact
+from clatter.artefact import BadArtefact
 from clatter_tools.study import findings, run
 
 

@@ -11,7 +11,7 @@ import unittest.mock
 import h5py
 
 from clatter_command import clatter
-from clatter_tools.artefact import schema_of
+from clatter.artefact import schema_of
 from clatter_tools.study import run
 
 

@@ -8,8 +8,8 @@ import tomllib
 import unittest
 
 from clatter_command import clatter
+from clatter.artefact import BadArtefact
 from clatter_tools import sweep
-from clatter_tools.artefact import BadArtefact
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 STAGES = ("mesh", "assembly", "modal", "condense", "dynamics", "recover")

@@ -4,7 +4,7 @@ import pathlib
 
 import h5py
 import numpy as np
-from clatter_tools.artefact import schema_of
+from clatter.artefact import schema_of
 
 
 def new_file(path, kind):

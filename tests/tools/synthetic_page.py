@@ -4,7 +4,7 @@ import h5py
 import numpy as np
 import synthetic
 import synthetic_drive
-from clatter_tools.artefact import sha256
+from clatter.artefact import sha256
 from clatter_tools.plots import style
 from clatter_tools.report_page import skin
 

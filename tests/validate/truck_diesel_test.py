@@ -10,7 +10,8 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 import stages  # noqa: E402
-from clatter_tools import fields, slap, warm_surfaces  # noqa: E402
+from clatter import fields  # noqa: E402
+from clatter_tools import slap, warm_surfaces  # noqa: E402
 
 LUBRICATED, DRY = ("slap", "slap_10um"), ("slap_dry", "slap_dry_10um")
 CYCLE = "analysis/cycle"

@@ -2,7 +2,7 @@
 """The certificate of a reduced model, grouped, with unit and meaning of each figure."""
 import numpy as np
 
-from . import artefact
+from clatter import artefact
 
 # (group, rows of (key, format with unit, meaning)); units and meanings are those of the table in docs/formats.md.
 GROUPS = [

@@ -6,8 +6,9 @@ import tomllib
 import h5py
 import numpy as np
 
-from . import artefact, chains, orders, slap_rows, sweep_list
-from .artefact import BadArtefact, schema_of, text
+from clatter import artefact, chains
+from clatter.artefact import BadArtefact, schema_of, text
+from . import orders, slap_rows, sweep_list
 from .export.patient_file import PatientFile
 from .whole_file import whole_file
 

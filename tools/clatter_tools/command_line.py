@@ -4,17 +4,17 @@ import argparse
 import errno
 import os
 import pathlib
-import signal
 import subprocess
 import sys
 
-from . import collect, drive_command, export_command, fired_cycle, info, levels, motored_cycle, predict, report, slaps, sweep
-from .artefact import BadArtefact, CannotWrite
+from clatter.errors import BadArtefact, CannotWrite, Failed
+from clatter.pipeline import program
+from . import collect, doctor, drive_command, export_command, fired_cycle, info, levels, motored_cycle, predict, report, slaps, sweep
 from .integrity import is_damage
 from .keys import command as keys_command
-from .keys import files as keys_files
+from .new import command as new
+from .run import command as run
 from .study import command as study
-from .study.run import Failed
 
 EPILOG = """the stages: clatter-mesh, clatter-assembly, clatter-modal, clatter-condense, clatter-dynamics,
 clatter-recover; each has --help. A Makefile of ten lines includes the rules: include $(shell clatter rules)"""
@@ -23,7 +23,7 @@ clatter-recover; each has --help. A Makefile of ten lines includes the rules: in
 class Version(argparse.Action):
     """`--version`: that of the stages, which come with the command."""
     def __call__(self, top, *_):
-        done = subprocess.run([keys_files.program("clatter-mesh"), "--version"], capture_output=True, text=True)
+        done = subprocess.run([program("clatter-mesh"), "--version"], capture_output=True, text=True)
         print(done.stdout.replace("clatter-mesh", "clatter"), end="")
         top.exit(done.returncode)
 
@@ -32,13 +32,16 @@ def parser():
     top = argparse.ArgumentParser(prog="clatter", description=__import__("clatter_tools").__doc__, epilog=EPILOG)
     top.add_argument("--version", action=Version, nargs=0, help="print the version and exit")
     commands = top.add_subparsers(dest="command", required=True, metavar="command")
+    one = commands.add_parser("new", help="write a folder that runs: from a sample, a CAD file or a deck")
+    new.add_arguments(one)
+    one = commands.add_parser("doctor", help="check packages, programs, BLAS, memory, disk: what is missing, and the way out")
+    doctor.add_arguments(one)
     one = commands.add_parser("info", help="contents, inputs, certificate and cost of an artefact")
     one.add_argument("files", nargs="+", metavar="file.h5")
     one.add_argument("--config", action="store_true", help="print the resolved configuration instead")
     one.add_argument("--verify", action="store_true", help="check every number against its checksum instead")
     one = commands.add_parser("run", help="bring a folder's artefacts up to date (make)")
-    one.add_argument("folder", nargs="?", default=".")
-    one.add_argument("-j", "--jobs", type=int, default=1, help="number of stages that run in parallel")
+    run.add_arguments(one)
     one = commands.add_parser("report", help="print the results of the runs in a folder, or write them as a page")
     one.add_argument("folder", nargs="?", default=".")
     one.add_argument("--html", action="store_true", help="write one page of HTML with plots and a 3-D view instead")
@@ -71,19 +74,6 @@ def parser():
     one = commands.add_parser("rules", help="print the path of clatter.mk, for `include`")
     one.add_argument("--snakemake", action="store_true", help="of clatter.smk instead, for a Snakefile")
     return top
-
-
-def run_make(folder, jobs):
-    if not os.path.exists(os.path.join(folder, "Makefile")):
-        raise BadArtefact(f"{folder}: no Makefile; write one with `include $(shell clatter rules)`")
-    make = subprocess.Popen(["make", "--no-print-directory", "-C", folder, f"-j{jobs}"])
-    signal.signal(signal.SIGTERM, lambda *_: make.terminate())  # which make passes on to the stages
-    while True:
-        try:
-            code = make.wait()
-            return code if code >= 0 else 3
-        except KeyboardInterrupt:  # the terminal has told make and the stages: they end by themselves
-            continue
 
 
 def angles(text):
@@ -150,12 +140,16 @@ def main(arguments, rules):
 def run_command(options, rules):
     """Runs one command; returns the exit code."""
     try:
-        if options.command == "info":
+        if options.command == "new":
+            new.write_new(options)
+        elif options.command == "doctor":
+            return doctor.run(options)
+        elif options.command == "info":
             show = info.print_verified if options.verify else info.print_config if options.config else info.print_info
             for path in options.files:
                 show(path)
         elif options.command == "run":
-            return run_make(options.folder, options.jobs)
+            return run.run(options)
         elif options.command == "report":
             write_report(options)
         elif options.command == "plot":

@@ -4,8 +4,9 @@ import pathlib
 
 import numpy as np
 
-from . import chains, orders
-from .artefact import BadArtefact, open_artefact, schema_of, text
+from clatter import chains
+from clatter.artefact import BadArtefact, open_artefact, schema_of, text
+from . import orders
 
 FAINT = 1e-3  # of all orders together: of less no speed is named
 ORDERS = (1.5, 3.0, 4.5, 20.0, 40.0)  # of a three-cylinder engine, and the teeth of a crank sprocket with 20

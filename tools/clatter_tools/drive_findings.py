@@ -2,9 +2,10 @@
 """What a report says of chain drives, in sentences."""
 import numpy as np
 
-from . import chains, orders
-from .artefact import BadArtefact, dataset
-from .histories import has, history
+from clatter import chains
+from clatter.artefact import BadArtefact, dataset
+from clatter.histories import has, history
+from . import orders
 
 CRITICAL_ORDER = 1.5  # the lowest one of a three-cylinder engine, which excites the first mode of its timing drive
 

@@ -6,7 +6,7 @@ import pathlib
 import sys
 import time
 
-from .artefact import BadArtefact, open_artefact
+from clatter.artefact import BadArtefact, open_artefact
 from .export import acoustic_source, derived, field_source, formats, sensors
 from .export.whole_files import WholeFiles
 

@@ -4,9 +4,10 @@ import pathlib
 
 import numpy as np
 
-from . import artefact, fields, slap
+from clatter import artefact, fields
+from clatter.histories import cylinders, last_cycle, of
+from . import slap
 from .weighting import loudest_peaks
-from .histories import cylinders, last_cycle, of
 
 RUN_HEAD = ["lateral [µm]", "tilt [mrad]", "min gap [µm]", "side force [kN]", "energy residue", "from cycle to cycle [µm]"]
 NOTHING = "-"

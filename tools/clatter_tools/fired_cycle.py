@@ -12,8 +12,8 @@ import math
 
 import numpy as np
 
+from clatter.artefact import BadArtefact
 from . import motored_cycle
-from .artefact import BadArtefact
 from .motored_cycle import DEGREE
 
 COMPLETE = 6.908  # a of Wiebe's function: 99.9 % are burnt at the end of the duration

@@ -2,7 +2,8 @@
 """`clatter info`: contents, inputs, certificate and cost of an artefact."""
 import h5py
 
-from . import artefact, certificate, integrity
+from clatter import artefact
+from . import certificate, integrity
 
 
 def print_tree(group, depth=1):

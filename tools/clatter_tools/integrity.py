@@ -2,7 +2,7 @@
 """Checksums of an artefact: which datasets and texts have one, and whether anything was damaged."""
 import h5py
 
-from .artefact import BadArtefact
+from clatter.artefact import BadArtefact
 
 UNREADABLE = (OSError, RuntimeError, KeyError)  # raised by h5py on a failed read
 CHECKSUM_SIGNS = ("checksum", "filter returned failure")  # HDF5 1.10 names the checksum of a chunk, 1.14 only the filter

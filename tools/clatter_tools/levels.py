@@ -5,8 +5,8 @@ import dataclasses
 
 import numpy as np
 
+from clatter.artefact import BadArtefact, open_artefact, schema_of, text
 from . import orders
-from .artefact import BadArtefact, open_artefact, schema_of, text
 from .weighting import a_weight
 
 AT = "analysis/cycle"

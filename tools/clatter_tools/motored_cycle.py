@@ -3,7 +3,7 @@
 import dataclasses
 import math
 
-from .artefact import BadArtefact
+from clatter.artefact import BadArtefact
 from .whole_file import whole_file
 
 DEGREE = math.pi / 180.0
@@ -71,7 +71,7 @@ def with_rows(lines, pressure, step):
     return "\n".join(lines) + "\n"
 
 
-# Option, default, smallest and largest value, help. The limits are those of a scene (dynamics/README.md).
+# Option, default, smallest and largest value, help. The limits are those of a scene (docs/keys/run.md).
 OPTIONS = (("bore-mm", 107.0, 0.1, 1e4, "bore [mm]"),
            ("stroke-mm", 130.0, 0.1, 1e4, "stroke [mm]"),
            ("rod-mm", 210.0, 1.0, 1e5, "rod length [mm]"),

@@ -2,8 +2,9 @@
 """Order analysis: amplitudes of a signal over the crank angle, in bands half an engine order wide."""
 import numpy as np
 
-from .artefact import BadArtefact, dataset, text
-from .chains import CYCLE_DEG, complete_cycles, crank_angle
+from clatter.artefact import BadArtefact, dataset, text
+from clatter.chains import CYCLE_DEG, complete_cycles, crank_angle
+from clatter.fields import labelled
 from .weighting import a_weight
 
 # References of levels in dB (ISO 1683); quantities of other units are shown as they are. A power is kept as its root, "W^0.5", whose
@@ -57,13 +58,8 @@ def of_run(run, name, cycles=None):
 def of_field(field, label):
     """The same of the acceleration of a sensor's channel in a field file, by its label."""
     at = "analysis/cycle"
-    sensors = field[f"{at}/sensors"] if f"{at}/sensors" in field else {}
-    known = {text(name): (sensor, k) for sensor in sensors
-             for k, name in enumerate(dataset(field, f"{at}/sensors/{sensor}/labels"))}
-    if label not in known:
-        raise BadArtefact(f"{field.filename}: {at}/sensors: found {', '.join(sorted(known)) or 'none'}, expected {label}")
-    sensor, channel = known[label]
-    lines = [dataset(field, f"{at}/sensors/{sensor}/spectrum/acceleration_{part}")[:, channel] for part in ("re", "im")]
+    sensor, channel = labelled(field, at, label)
+    lines = [dataset(field, f"{sensor}/spectrum/acceleration_{part}")[:, channel] for part in ("re", "im")]
     order = dataset(field, f"{at}/order")
     rms = np.zeros(int(round(2 * order[-1])) + 1)
     rms[np.rint(2 * order).astype(int)] = np.hypot(*lines) / np.sqrt(2.0)  # amplitudes are peaks

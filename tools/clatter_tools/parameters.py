@@ -8,7 +8,7 @@ import pathlib
 import re
 import tomllib
 
-from .artefact import BadArtefact
+from clatter.artefact import BadArtefact
 from .keys import rows
 from .keys.study_keys import PARAMETERS
 

@@ -2,7 +2,7 @@
 """`clatter predict`: what a reduction by several processes will cost; `clatter-condense predict` under the name of the tools."""
 import subprocess
 
-from .keys import files
+from clatter.pipeline import program
 
 PROGRAM = "clatter-condense"
 
@@ -18,7 +18,7 @@ def add_arguments(command):
 
 def run(options):
     """Runs the stage's command; returns its exit code."""
-    command = [files.program(PROGRAM), "predict", options.model, "--ranks", options.ranks]
+    command = [program(PROGRAM), "predict", options.model, "--ranks", options.ranks]
     if options.config:
         command += ["-c", options.config]
     if options.gflops:

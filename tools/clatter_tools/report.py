@@ -2,7 +2,8 @@
 """`clatter report`: results of the runs of a folder, cost of each stage, paths of pictures."""
 import pathlib
 
-from . import artefact, chains, drive_findings, findings, slap
+from clatter import artefact, chains
+from . import drive_findings, findings, slap
 
 STAGES = ["mesh", "fe", "modes", "rom", "sound", "run", "field"]
 

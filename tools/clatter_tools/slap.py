@@ -6,8 +6,8 @@ acceleration between FROM_HZ and the highest line of the cycle's spectrum.
 """
 import numpy as np
 
-from . import fields
-from .artefact import dataset
+from clatter import fields
+from clatter.artefact import dataset
 
 FROM_HZ = 300.0
 AROUND_S = (-2e-3, 5e-3)  # search window about firing TDC

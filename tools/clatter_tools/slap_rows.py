@@ -2,8 +2,9 @@
 """The figures of a slap that `clatter collect` puts into a sweep file, a row for each run."""
 import numpy as np
 
-from . import fields, slap
-from .artefact import dataset
+from clatter import fields
+from clatter.artefact import dataset
+from . import slap
 
 AT = "analysis/cycle"
 SENSORS = ("liner", "block")

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
+from clatter.artefact import BadArtefact, dataset, open_artefact, text
 from . import parameters
-from .artefact import BadArtefact, dataset, open_artefact, text
 from .whole_file import whole_file
 
 HEAD = ("sound power [dB(A) re 1 pW]", "slap after FTDC [ms]", "rings until [ms]", "liner peak [m/s²]", "block peak [m/s²]", "liner rms above 2 kHz [m/s²]")

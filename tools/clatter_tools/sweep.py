@@ -8,8 +8,8 @@ import pathlib
 import re
 import tomllib
 
+from clatter.artefact import BadArtefact, CannotWrite
 from . import parameters
-from .artefact import BadArtefact, CannotWrite
 from .keys.schema_line import schema_line
 from .whole_file import whole_file
 

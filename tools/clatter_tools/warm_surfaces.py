@@ -11,7 +11,7 @@ import tomllib
 
 import numpy as np
 
-from .artefact import BadArtefact, configuration, dataset, open_artefact, text
+from clatter.artefact import BadArtefact, configuration, dataset, open_artefact, text
 
 
 def contact_of(run):

@@ -4,7 +4,7 @@ import contextlib
 import os
 import pathlib
 
-from .artefact import CannotWrite
+from clatter.artefact import CannotWrite
 
 
 def sync(path):

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sparse/eigen/shifted_pencil.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/log.hpp"
 #include "core/base/threads.hpp"
 #include "core/sparse/eigen/block_lanczos.hpp"
 #include "core/sparse/eigen/mode_values.hpp"
@@ -154,8 +151,6 @@ bool ShiftedPencil::follow(const Eigen::VectorXd& ritz, const Wanted& wanted) {
     moves_left_ = 0;
     return false;
   }
-  say(fmt::format("shift: {:.4g} Hz is far from the first mode, about {:.4g} Hz or below",
-                  hz_of_value(size), hz_of_value(lowest)));
   --moves_left_;
   shift_from(next);
   return true;

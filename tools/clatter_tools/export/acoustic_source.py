@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from ..artefact import BadArtefact, dataset
+from clatter.artefact import BadArtefact, dataset
 from .field_source import checked, read_origin
 from .surface import Motion, Surface
 

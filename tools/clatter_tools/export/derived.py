@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from ..artefact import BadArtefact
+from clatter.artefact import BadArtefact
 from .surface import Surface
 
 # The four triangles of a 6-node one, its mid-side nodes becoming corners; each keeps its direction.

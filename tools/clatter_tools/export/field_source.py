@@ -4,7 +4,7 @@ import pathlib
 
 import numpy as np
 
-from ..artefact import BadArtefact, dataset, text
+from clatter.artefact import BadArtefact, dataset, text
 from .surface import QUANTITIES, Motion, Origin, Surface
 
 

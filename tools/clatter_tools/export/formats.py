@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Callable
 
-from ..artefact import BadArtefact
+from clatter.artefact import BadArtefact
 from . import cfs, msh, nastran, numcalc, sensors, table, unv, vtu
 
 NODAL = ("velocity", "displacement", "acceleration")

@@ -4,8 +4,8 @@ import dataclasses
 
 import numpy as np
 
-from ..artefact import BadArtefact, dataset, text
-from ..fields import piece, pieces, sensor_names
+from clatter.artefact import BadArtefact, dataset, text
+from clatter.fields import piece, pieces, sensor_names
 from .columns import formatted, line, two_lines
 from .field_source import checked, read_origin
 from .surface import QUANTITIES, Origin, interleaved

@@ -2,7 +2,7 @@
 """CSV: one row per node or face and step, after comment lines with # and one line of names."""
 import numpy as np
 
-from ..artefact import BadArtefact
+from clatter.artefact import BadArtefact
 from .columns import formatted, line
 from .surface import QUANTITIES, interleaved
 

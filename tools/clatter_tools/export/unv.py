@@ -3,7 +3,7 @@
 datasets 2414 (at nodes, on elements) or 55 (at nodes). As clatter-mesh writes meshes; six digits of a result (6E13.5)."""
 import numpy as np
 
-from ..artefact import BadArtefact
+from clatter.artefact import BadArtefact
 from .columns import formatted, line, two_lines
 from .surface import QUANTITIES, interleaved
 

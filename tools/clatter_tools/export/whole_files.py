@@ -5,7 +5,7 @@ import os
 import pathlib
 import shutil
 
-from ..artefact import BadArtefact, CannotWrite
+from clatter.artefact import BadArtefact, CannotWrite
 from ..whole_file import sync
 
 MARK = "clatter.txt"  # in a folder that a hand-off wrote, so that another hand-off may replace it

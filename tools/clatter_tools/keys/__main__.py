@@ -2,8 +2,8 @@
 """Writes all schemas or all pages: python3 -m clatter_tools.keys schemas|pages FOLDER, with the programs of CLATTER_BIN."""
 import sys
 
+from clatter.errors import BadArtefact
 from . import command, files, pages, schema
-from ..errors import BadArtefact
 
 try:
     what, folder = sys.argv[1:]

@@ -3,8 +3,8 @@
 import json
 import sys
 
+from clatter.errors import BadArtefact
 from . import files, rows, schema, words
-from ..errors import BadArtefact
 
 
 def add_arguments(commands):

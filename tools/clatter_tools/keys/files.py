@@ -1,29 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Kinds of TOML files, and their tables of keys from the programs that read them."""
 import json
-import os
-import pathlib
-import shutil
 import subprocess
-import sys
 
+from clatter.errors import BadArtefact
+from clatter.pipeline import program
 from . import study_keys
-from ..errors import BadArtefact
 
 # kind: the program that reads it; none for the tools' own.
 KINDS = {"mesh": "clatter-mesh", "fe": "clatter-assembly", "modes": "clatter-modal", "rom": "clatter-condense", "run": "clatter-dynamics",
          "field": "clatter-recover", "sound": "clatter-recover", "study": None, "parameters": None}
 OWN = {"study": study_keys.STUDY, "parameters": study_keys.PARAMETERS}
-
-
-def program(name):
-    """The path of a program: in CLATTER_BIN, beside the running one, in the build of the source tree, or in PATH."""
-    here = pathlib.Path(sys.argv[0]).resolve().parent
-    folders = [os.environ.get("CLATTER_BIN", here), here, here.parent / "build/release/bin"]
-    found = next((path for folder in folders if (path := pathlib.Path(folder) / name).exists()), shutil.which(name))
-    if found is None:
-        raise BadArtefact(f"{name} was not found beside this program or in PATH; build it (make build)")
-    return found
 
 
 def tables_of(name):

@@ -7,7 +7,7 @@ table, types as in core/keys/describe.hpp.
 import difflib
 import math
 
-from ..errors import BadArtefact
+from clatter.errors import BadArtefact
 
 
 def table(name, meaning, keys, one_of=()):

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Acceleration of liner and block around firing TDC, as in figures 9 and 10 of the paper."""
-from ..artefact import BadArtefact, dataset
-from .. import fields, slap
+from clatter import fields
+from clatter.artefact import BadArtefact, dataset
+from .. import slap
 from . import octaves, style
 
 SENSORS = ("liner", "block")

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 
-from ..artefact import BadArtefact
+from clatter.artefact import BadArtefact
 from .. import orders
 from . import style
 

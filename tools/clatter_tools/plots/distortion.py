@@ -2,7 +2,7 @@
 """The radial shape of bores and skirts: around at several heights, and along."""
 import numpy as np
 
-from ..artefact import BadArtefact, dataset, text
+from clatter.artefact import BadArtefact, dataset, text
 from . import style
 
 HEIGHTS = 4      # outlines in a polar picture

@@ -5,7 +5,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.patches import Polygon
 
-from .. import chains
+from clatter import chains
 from . import style
 
 STEEL, EDGE, GUIDE = "#d5d9de", "#6b7480", "#ead9bf"

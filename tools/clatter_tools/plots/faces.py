@@ -8,7 +8,7 @@ import tempfile
 
 import numpy as np
 
-from ..artefact import BadArtefact, dataset, open_artefact, text
+from clatter.artefact import BadArtefact, dataset, open_artefact, text
 from . import raster, style
 
 # Azimuth, elevation [deg], direction along which the half beyond the middle is removed.

@@ -2,9 +2,10 @@
 """Maps of the oil film between skirt and liner at some crank angles."""
 import numpy as np
 
+from clatter.artefact import BadArtefact, dataset
+from clatter.films import contacts
+from clatter.histories import centred, last_cycle
 from . import style
-from ..artefact import BadArtefact, dataset
-from ..histories import centred, last_cycle
 
 AT_DEG = (-20.0, 0.0, 10.0, 20.0, 90.0)
 # Dataset, name, factor, unit, colours, and the share of the values that the scale holds: of the gap it is the narrower half.
@@ -41,14 +42,6 @@ def draw(files, at_deg=AT_DEG):
     figure.text(0.01, 0.5, "height above the pin [mm]", va="center", rotation=90, fontsize=10)
     style.headline(figure, f"Contact of skirt and liner by crank angle: {style.label(run, cylinder)}")
     return figure
-
-
-def contacts(run):
-    """(cylinder, group of its pads): the only cylinder without a name, or each named one."""
-    film = run.get("film", {})
-    if any("axial" in film[name] for name in film):
-        return [("", film)]
-    return [(name, film[name]) for name in sorted(film) if hasattr(film[name], "keys")]
 
 
 def nearest_frames(recorded, wanted):

@@ -2,7 +2,7 @@
 """Tension around the loop of a chain."""
 import numpy as np
 
-from .. import chains
+from clatter import chains
 from . import drive, style
 
 

@@ -2,7 +2,7 @@
 """Third-octave spectra as stairs with nominal frequencies below."""
 import numpy as np
 
-from ..artefact import dataset, text
+from clatter.artefact import dataset, text
 
 FLOOR_DB = 70.0  # range of levels in a picture
 

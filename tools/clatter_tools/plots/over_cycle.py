@@ -2,9 +2,9 @@
 """Histories of a run over the crank angle of its last cycle."""
 import numpy as np
 
-from .. import chains
-from ..artefact import BadArtefact, dataset
-from ..histories import centred, has
+from clatter import chains
+from clatter.artefact import BadArtefact, dataset
+from clatter.histories import centred, has
 from . import style
 
 

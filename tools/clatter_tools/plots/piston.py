@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The piston's secondary motion over crank angle."""
+from clatter.artefact import BadArtefact
+from clatter.histories import centred, crank_angle, cylinders, has, history, last_cycle, of
 from . import style
-from ..artefact import BadArtefact
-from ..histories import centred, crank_angle, cylinders, has, history, last_cycle, of
 
 # History, unit, factor, name. The last ones are of a contact with the liner.
 CURVES = [("piston_lateral", "m", 1e6, "lateral position\nof the pin [µm]"), ("piston_tilt", "rad", 1e3, "tilt [mrad]"),

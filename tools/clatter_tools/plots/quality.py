@@ -2,7 +2,7 @@
 """Quality of mesh cells: histograms by cell type, the worst cells with number and position."""
 import numpy as np
 
-from ..artefact import BadArtefact
+from clatter.artefact import BadArtefact
 from . import style
 
 MEASURES = {"min_dihedral_deg": "smallest dihedral angle [deg]", "scaled_jacobian": "scaled Jacobian (proved bound)"}

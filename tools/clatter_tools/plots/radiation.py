@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Radiated power, A-weighted: sound power by boundary elements beside the equivalent radiated power (ERP)."""
-from ..artefact import dataset
-from .. import fields
-from ..weighting import level_dba
+from clatter import fields
+from clatter.artefact import dataset
 from . import octaves, style
+from ..weighting import level_dba
 
 RANGE_DB = 50.0  # of the levels in a picture
 

@@ -4,9 +4,9 @@ import re
 
 import numpy as np
 
-from ..artefact import BadArtefact, dataset, text
-from ..weighting import a_weight, level_dba
+from clatter.artefact import BadArtefact, dataset, text
 from . import raster, style
+from ..weighting import a_weight, level_dba
 
 METAL = np.array([0.80, 0.82, 0.84])
 SECTION = np.array([0.55, 0.36, 0.33])  # cut material

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fluctuation of the angular velocity of sprockets, as in figure 5 of the paper."""
-from .. import chains
-from ..artefact import BadArtefact
+from clatter import chains
+from clatter.artefact import BadArtefact
 from . import style
 from .over_cycle import LastCycle
 

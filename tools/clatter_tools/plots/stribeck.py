@@ -4,9 +4,9 @@ import dataclasses
 
 import numpy as np
 
-from .. import artefact
-from ..artefact import BadArtefact
-from ..histories import crank_angle, history, last_cycle
+from clatter import artefact
+from clatter.artefact import BadArtefact
+from clatter.histories import crank_angle, history, last_cycle
 from . import style
 
 

@@ -8,7 +8,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import matplotlib.ticker  # noqa: E402
 
-from ..artefact import BadArtefact, open_artefact, text  # noqa: E402
+from clatter.artefact import BadArtefact, open_artefact, text  # noqa: E402
 from ..whole_file import whole_file  # noqa: E402
 
 # Colour-blind safe (Okabe and Ito 2008); a run keeps its colour in all pictures of one call.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pressure and travel of hydraulic tensioners."""
-from ..artefact import BadArtefact
-from ..histories import has
+from clatter.artefact import BadArtefact
+from clatter.histories import has
 from . import style
 from .over_cycle import LastCycle, named
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Valve trains: lift of the valves, least gap between the coils of their springs, gap between cam and roller."""
-from ..artefact import BadArtefact
-from ..histories import has
+from clatter.artefact import BadArtefact
+from clatter.histories import has
 from . import style
 from .over_cycle import LastCycle, named
 

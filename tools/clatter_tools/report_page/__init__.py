@@ -8,10 +8,10 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 
-from .. import artefact
+from clatter import artefact
+from . import (accuracy, certificates, cost, drive, film_maps, mechanism, models, radiation, sensors, sound, speeds, summary, surface)
 from ..plots import style
 from ..whole_file import whole_file
-from . import (accuracy, certificates, cost, drive, film_maps, mechanism, models, radiation, sensors, sound, speeds, summary, surface)
 from .folder import Folder
 from .pack import Pack, json_text
 

@@ -3,7 +3,7 @@
 import base64
 import csv
 
-from .. import artefact
+from clatter import artefact
 from ..parameters import slug
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Certificates in words: what was proved of each artefact, and what was not."""
-from .. import artefact
+from clatter import artefact
 from ..certificate import GROUPS, value_text, verdict
 from ..report import stem
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Effects of each run with their cost, and seconds, memory and size of each stage."""
-from .. import artefact
+from clatter import artefact
 from ..report import STAGES
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chain drives: the animation of `clatter drive`, tension around the loop."""
-from .. import chains
-from ..artefact import dataset
+from clatter import chains
+from clatter.artefact import dataset
 from ..plots import drive, drive_film, loop
 
 

@@ -2,8 +2,9 @@
 """Maps of the oil film: pressure, fill, gap and contact pressure on the pads of the skirt, over the crank angle."""
 import numpy as np
 
-from ..artefact import dataset
-from ..histories import centred
+from clatter.artefact import dataset
+from clatter.films import contacts
+from clatter.histories import centred
 
 # Dataset, name, factor, unit, colours.
 QUANTITIES = [
@@ -16,21 +17,12 @@ QUANTITIES = [
 
 def collect(folder, pack):
     """Contacts (run, cylinder) with their pads; dry contacts have no fill and no film pressure."""
-    contacts = [contact(one, group, cylinder, pack) for one in folder.with_run() if "film" in one.run
-                for cylinder, group in groups(one.run["film"])]
-    if not contacts:
+    found = [contact(one, group, cylinder, pack) for one in folder.with_run() for cylinder, group in contacts(one.run)]
+    if not found:
         return None
-    return {"contacts": contacts,
+    return {"contacts": found,
             "quantities": [{"key": key, "name": name, "unit": unit, "colours": colours}
                            for key, name, _, unit, colours in QUANTITIES]}
-
-
-def groups(film):
-    """(cylinder, group of pads); the cylinder has no name where there is one."""
-    pads = [name for name in film if "axial" in film[name]]
-    if pads:
-        return [("", film)]
-    return [(name, film[name]) for name in film if hasattr(film[name], "keys")]
 
 
 def contact(one, group, cylinder, pack):

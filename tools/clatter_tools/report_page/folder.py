@@ -4,7 +4,7 @@ import dataclasses
 import pathlib
 import re
 
-from .. import artefact
+from clatter import artefact
 from ..plots import style
 from ..report import STAGES, stem
 

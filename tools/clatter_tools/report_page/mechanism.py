@@ -2,7 +2,7 @@
 """Histories of runs over the crank angle of their last cycle: motion, forces, gaps."""
 import numpy as np
 
-from ..artefact import dataset, text
+from clatter.artefact import dataset, text
 from ..plots.over_cycle import LastCycle
 
 # Curves that are drawn first: end of the history's name, title, label of the axis, factor, unit, less its mean.

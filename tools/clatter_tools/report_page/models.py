@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 
-from ..artefact import BadArtefact
+from clatter.artefact import BadArtefact
 from ..report import stem
 
 ROW = re.compile(r"^\s*(\d+)\s+([\d.eE+-]+)\s+([\d.eE+-]+)\s+([\d.eE+-]+)\s+([\d.eE+-]+)\s*$", re.M)

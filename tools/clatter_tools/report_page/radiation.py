@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Radiated power: panels with their spectra, third octaves and share."""
-from .. import fields
-from ..artefact import dataset, text
+from clatter import fields
+from clatter.artefact import dataset, text
 from ..plots.octaves import short
 
 # What is shown of each panel: dataset of lines, of third octaves, A-weighted ones, attributes of totals, name and reference.

@@ -2,8 +2,9 @@
 """Sensors: time signals, spectra, third octaves, spectrograms of a field's cycle."""
 import numpy as np
 
-from .. import fields, slap
-from ..artefact import dataset, text
+from clatter import fields
+from clatter.artefact import dataset, text
+from .. import slap
 from ..plots.octaves import short
 
 QUANTITIES = {"acceleration": "m/s²", "velocity": "m/s"}

@@ -2,7 +2,7 @@
 """The skins of parts for the 3-D view: geometry, panels, edges."""
 import numpy as np
 
-from ..artefact import dataset
+from clatter.artefact import dataset
 from ..plots import raster
 
 SHARP_DEG = 35.0  # between the normals of two faces: their common edge belongs to the outline

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sound of boundary elements, where field files have it: power beside the ERP, pressure at microphones."""
-from .. import fields
-from ..artefact import dataset, text
+from clatter import fields
+from clatter.artefact import dataset, text
 from ..plots.octaves import short
 
 

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Orders over the crank speed, where the folder has runs at several speeds: Campbell diagram and order cuts."""
-from .. import chains, fields, orders
-from ..artefact import BadArtefact, dataset, text
+from clatter import chains, fields
+from clatter.artefact import BadArtefact, dataset, text
+from .. import orders
 
 APART_RPM = 1.0  # speeds that are nearer are one
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The first section: what was found, in sentences and in the tables of `clatter report`."""
-from .. import artefact, chains, drive_findings, fields, findings, report, slap
+from clatter import artefact, chains, fields
+from .. import drive_findings, findings, report, slap
 from .certificates import GOOD
 
 WORRIES = 12  # that are listed

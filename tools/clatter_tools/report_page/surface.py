@@ -3,9 +3,9 @@
 import pathlib
 
 import numpy as np
-import scipy.linalg
 
-from ..artefact import dataset, open_artefact, text
+from clatter.artefact import dataset, open_artefact, text
+from clatter.rom import Rom
 from . import shapes, skin
 from .folder import made_with
 
@@ -92,9 +92,7 @@ def shown_run(pack, block, one, basis, values, spectral):
 
 def modes(rom):
     """(frequencies [Hz], vectors r x m) of the free reduced part, rigid modes left out."""
-    stiffness, mass = dataset(rom, "K_rr"), dataset(rom, "M_rr")
-    value, vector = scipy.linalg.eigh(stiffness, mass)
-    hz = np.sqrt(np.maximum(value, 0.0)) / (2.0 * np.pi)
+    hz, vector = Rom(rom).modes()
     limit = rom["certificate"].attrs.get("accurate_to_hz", np.inf) if "certificate" in rom else np.inf
     kept = np.flatnonzero((hz > ELASTIC_HZ) & (hz <= limit))[:MODES]
     return hz[kept], vector[:, kept]

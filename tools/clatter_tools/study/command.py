@@ -3,8 +3,8 @@
 import argparse
 import sys
 
+from clatter.artefact import BadArtefact
 from .. import study as study_package
-from ..artefact import BadArtefact
 from . import effects, findings, markdown, place, plan, proof, proposal, quantities, results, run
 
 

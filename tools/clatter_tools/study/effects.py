@@ -18,8 +18,8 @@ import dataclasses
 import math
 import re
 
-from .. import artefact
-from ..artefact import text
+from clatter import artefact
+from clatter.artefact import text
 from . import effect_keys, plan, results, run, toml_text
 from .findings import digits
 

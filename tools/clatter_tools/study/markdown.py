@@ -28,13 +28,6 @@ def effects(effects):
     return table(effects_of.rows(effects))
 
 
-def few_effects(effects, quantities):
-    """The same with a column for some quantities only, by name."""
-    head, *rows = effects_of.rows(effects)
-    shown = [k for k, one in enumerate(head) if one in quantities or one not in [own.name for own in effects.plan.quantities]]
-    return table([[row[k] for k in shown] for row in [head, *rows]])
-
-
 def budget_rows(study):
     """Errors of the base by setting, their sum, and the run with everything refined, a column for each quantity."""
     base = study.variants[findings.BASE].values

@@ -6,7 +6,8 @@ import pathlib
 import re
 import subprocess
 
-from ..artefact import BadArtefact
+from clatter.artefact import BadArtefact
+from clatter.pipeline import environment
 from . import plan, toml_text
 
 TARGET = re.compile(r"^([^\s#:=]+):(?!=)\s*(.*)$")
@@ -23,14 +24,6 @@ class Rule:
     inputs: list
     commands: list
     made: bool = False
-
-
-def environment(**more):
-    """That of make: its own variables are those of a fresh start, CLATTER_BIN is absolute."""
-    found = {key: value for key, value in os.environ.items() if key not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "MAKEOVERRIDES")}
-    if found.get("CLATTER_BIN"):
-        found["CLATTER_BIN"] = os.path.abspath(found["CLATTER_BIN"])
-    return {**found, **more}
 
 
 def database(folder, targets):

@@ -10,7 +10,7 @@ those of the base.
 import dataclasses
 import tomllib
 
-from ..artefact import BadArtefact
+from clatter.errors import BadArtefact, Failed
 from . import plan, run, variants
 from .proposal import propose
 from .quantities import Value
@@ -100,7 +100,7 @@ def those_that_matter(study, quantity, within):
     known = study.values[quantity][BASE]
     sizes = {variant: difference(study.plan, quantity, study.values[quantity][variant], known) for variant in neighbours(study, quantity).values()}
     if not sizes:
-        raise run.Failed(f"{study.plan.path}: --at: found no setting that changes {study.plan.quantities[quantity].name}, expected one")
+        raise Failed(f"{study.plan.path}: --at: found no setting that changes {study.plan.quantities[quantity].name}, expected one")
     return [variant for variant, size in sizes.items() if size >= min(MATTERS * within, max(sizes.values()))]
 
 
@@ -110,7 +110,7 @@ def values_there(study, quantity, chosen, changes, jobs):
     values = [made.values(own)[quantity] for own in artefacts]
     missing = [one.name for one, value in zip(chosen, values) if value is None]
     if missing:
-        raise run.Failed(f"{study.plan.path}: --at: the run there of {', '.join(missing)} cannot be made: see what its stage says above")
+        raise Failed(f"{study.plan.path}: --at: the run there of {', '.join(missing)} cannot be made: see what its stage says above")
     return made.stages(artefacts[0]), values
 
 

@@ -4,9 +4,9 @@ import dataclasses
 import pathlib
 import tomllib
 
-from ..artefact import BadArtefact
-from ..keys import rows, study_keys
+from clatter.artefact import BadArtefact
 from . import quantities
+from ..keys import rows, study_keys
 
 MOST_VALUES = 100
 

@@ -8,7 +8,7 @@ import csv
 import dataclasses
 import math
 
-from ..artefact import BadArtefact
+from clatter.errors import BadArtefact, Failed
 from . import convergence, findings, results, run, variants
 from .place import difference, make_there, place_of, propose_there
 from .proposal import seconds_by
@@ -33,7 +33,7 @@ def prove(study, quantity, proposal, jobs, place):
     values = [made.values(own, one.name)[quantity] for one, own in zip(chosen, artefacts)]
     missing = [one.name for one, value in zip(chosen, values) if value is None]
     if missing:
-        raise run.Failed(f"{wanted.path}: the run with the {' and the '.join(missing)} settings cannot be made: see what its stage says above")
+        raise Failed(f"{wanted.path}: the run with the {' and the '.join(missing)} settings cannot be made: see what its stage says above")
     error = difference(wanted, quantity, values[1], limit_of(study, quantity, values[2] if place.changes else None))
     base = [stage for stage in place.stages if stage.name in proposal.factors]
     return Proof(error, run.cost_of(wanted, made.stages(artefacts[1]), quantity), seconds_by(wanted, base, proposal.factors))
@@ -90,7 +90,7 @@ def answer(study, request, text, seconds, jobs, there=(), at=()):
     quantity, within = request.quantity, request.within(study)
     lacking = [study.plan.settings[number].name for number in study.lacking(quantity)]
     if lacking:
-        raise run.Failed(f"{study.plan.path}: the finest value of {', '.join(lacking)} could not be made: errors are not known; see what its stage says above")
+        raise Failed(f"{study.plan.path}: the finest value of {', '.join(lacking)} could not be made: errors are not known; see what its stage says above")
     place = place_of(study, quantity, within, jobs, there)
     best, least = propose_there(study, quantity, within, seconds, jobs, place)
     if at:
@@ -98,7 +98,7 @@ def answer(study, request, text, seconds, jobs, there=(), at=()):
         print(f"there, differences over those in the study: {said}", flush=True)
     if best is None:
         print("\n".join(["the nearest:", *report(study, quantity, least)]))
-        raise run.Failed(f"{study.plan.path}: no settings of this study are within {findings.error_text(study, quantity, within)}"
+        raise Failed(f"{study.plan.path}: no settings of this study are within {findings.error_text(study, quantity, within)}"
                          f"{f' and {seconds:g} s' if math.isfinite(seconds) else ''}: add finer values, or ask for less")
     print("\n".join(report(study, quantity, best)), flush=True)
     proof = prove(study, quantity, best, jobs, place)
@@ -114,7 +114,7 @@ def answer(study, request, text, seconds, jobs, there=(), at=()):
         rest = study.scaled(quantity, limit_of(study, quantity).minus(exact).size())
         print(f"beside the error of these settings: {findings.error_text(study, quantity, rest)} between the limit of all settings and the exact value")
     if proof.error > within:
-        raise run.Failed(f"{study.plan.path}: found {findings.error_text(study, quantity, proof.error)}, more than the {findings.error_text(study, quantity, within)} "
+        raise Failed(f"{study.plan.path}: found {findings.error_text(study, quantity, proof.error)}, more than the {findings.error_text(study, quantity, within)} "
                          "asked for: ask for less, or add values to the study")
 
 

@@ -23,9 +23,12 @@ import dataclasses
 
 import numpy as np
 
-from .. import fields, orders, slap, slap_rows
-from ..artefact import BadArtefact, dataset, open_artefact, text, totals
-from ..histories import crank_angle, has
+from clatter import fields
+from clatter.artefact import BadArtefact, dataset, open_artefact, totals
+from clatter.histories import crank_angle, has
+from clatter.modes import Modes
+from clatter.rom import Rom
+from .. import orders, slap, slap_rows
 from ..keys.study_keys import TAKEN
 
 POINTS = 1440
@@ -109,12 +112,7 @@ class Extractor:
 
 def frequency(file, number):
     wanted = number
-    if "frequency_hz" in file:
-        found = dataset(file, "frequency_hz")
-    else:
-        from scipy.linalg import eigh
-        squared = eigh(dataset(file, "K_rr"), dataset(file, "M_rr"), eigvals_only=True)
-        found = np.sqrt(np.maximum(squared, 0.0)) / (2.0 * np.pi)
+    found = (Modes(file) if "frequency_hz" in file else Rom(file).modes()).frequency_hz
     if not 1 <= wanted <= len(found):
         raise BadArtefact(f"{file.filename}: found {len(found)} modes, expected mode {wanted}")
     limit = float(file["certificate"].attrs.get("accurate_to_hz", np.inf)) if "certificate" in file else np.inf
@@ -124,13 +122,9 @@ def frequency(file, number):
 
 def line(file, sensor, at_hz):
     at = fields.piece(file, "cycle", *fields.pieces(file))
-    for name in fields.sensor_names(file, at):
-        labels = [text(one) for one in dataset(file, f"{at}/sensors/{name}/labels")]
-        if sensor in labels:
-            hz = dataset(file, f"{at}/frequency_hz")
-            row, column = int(np.argmin(np.abs(hz - at_hz))), labels.index(sensor)
-            return np.hypot(*(dataset(file, f"{at}/sensors/{name}/spectrum/acceleration_{part}")[row, column] for part in ("re", "im")))
-    raise BadArtefact(f"{file.filename}: {at}/sensors: found no channel {sensor}")
+    path, column = fields.labelled(file, at, sensor)
+    row = int(np.argmin(np.abs(dataset(file, f"{at}/frequency_hz") - at_hz)))
+    return np.hypot(*(dataset(file, f"{path}/spectrum/acceleration_{part}")[row, column] for part in ("re", "im")))
 
 
 def liner_signal(file, to_hz):
@@ -163,11 +157,8 @@ def third_octaves(file, of, from_hz, to_hz):
     at = fields.piece(file, "cycle", *fields.pieces(file))
     kind, _, name = of.partition("/")
     if kind == "sensors":
-        found = [(f"{at}/sensors/{one}", labels.index(name)) for one in fields.sensor_names(file, at)
-                 for labels in [[text(label) for label in dataset(file, f"{at}/sensors/{one}/labels")]] if name in labels]
-        if not found:
-            raise BadArtefact(f"{file.filename}: {at}/sensors: found no channel {name}")
-        levels = dataset(file, f"{found[0][0]}/third_octave/acceleration_db")[:, found[0][1]]
+        path, column = fields.labelled(file, at, name)
+        levels = dataset(file, f"{path}/third_octave/acceleration_db")[:, column]
     else:
         levels = dataset(file, f"{at}/sound/third_octave/power_db" if kind == "sound" else f"{at}/panels/{name}/third_octave/erp_db")
     mid = dataset(file, f"{at}/third_octave/mid_hz")[:len(levels)]

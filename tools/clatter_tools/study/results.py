@@ -5,9 +5,9 @@ import csv
 import h5py
 import numpy as np
 
-from ..artefact import schema_of
-from ..whole_file import whole_file
+from clatter.artefact import schema_of
 from . import convergence, findings
+from ..whole_file import whole_file
 
 
 def write(study):

@@ -3,16 +3,12 @@
 import dataclasses
 import sys
 
-from .. import artefact
-from ..artefact import BadArtefact
+from clatter import artefact
+from clatter.errors import BadArtefact, Failed
 from . import convergence, plan, store, variants
 from .pipeline import Pipeline
 
 BASE = 0  # number of the variant
-
-
-class Failed(Exception):
-    """The base of a study could not be made: one line for the user."""
 
 
 @dataclasses.dataclass

@@ -11,11 +11,11 @@ import signal
 import subprocess
 import tomllib
 
-from .. import artefact
-from ..artefact import BadArtefact, CannotWrite
+from clatter import artefact
+from clatter.artefact import BadArtefact, CannotWrite
+from . import toml_text
 from ..keys.schema_line import schema_line
 from ..sweep import write_changed
-from . import toml_text
 from .pipeline import environment
 
 LEFT_OUT = (".h5", ".d", ".part", ".toml", ".checkpoint", ".xdmf")  # of the pipeline's folder, in the folders of artefacts

@@ -3,7 +3,7 @@
 import json
 import math
 
-from ..artefact import BadArtefact
+from clatter.artefact import BadArtefact
 
 
 def child(table, step):

@@ -4,7 +4,7 @@ import copy
 import dataclasses
 import re
 
-from ..artefact import BadArtefact
+from clatter.artefact import BadArtefact
 from . import toml_text
 from .plan import step_sizes
 

@@ -31,6 +31,15 @@ def sensor_names(field, at):
     return sorted(field[f"{at}/sensors"]) if f"{at}/sensors" in field else []
 
 
+def labelled(field, at, label):
+    """(path of the sensor, index of its channel) by the channel's label; BadArtefact with the labels that the piece has."""
+    known = {text(name): (f"{at}/sensors/{sensor}", k) for sensor in sensor_names(field, at)
+             for k, name in enumerate(dataset(field, f"{at}/sensors/{sensor}/labels"))}
+    if label not in known:
+        raise BadArtefact(f"{field.filename}: {at}/sensors: found {', '.join(sorted(known)) or 'none'}, expected {label}")
+    return known[label]
+
+
 def pick_sensor(field, at, part):
     """Path of the sensor whose name contains `part`, or None."""
     return next((f"{at}/sensors/{name}" for name in sensor_names(field, at) if part in name), None)

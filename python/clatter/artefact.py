@@ -5,6 +5,7 @@ import hashlib
 import pathlib
 
 import h5py
+import numpy as np
 
 from .errors import BadArtefact, CannotWrite
 
@@ -16,7 +17,7 @@ def text(value):
 
 def schema_of(kind):
     """The current schema of files of that kind: "clatter/mesh/2"."""
-    return f"clatter/{kind}/{2 if kind in ('mesh', 'fe', 'modes') else 1}"
+    return f"clatter/{kind}/{2 if kind in ('mesh', 'fe', 'modes', 'sound') else 1}"
 
 
 def open_artefact(path, kind=None):
@@ -100,3 +101,58 @@ def totals(file):
     """(seconds, peak GiB) of the stage."""
     attributes = file["timing"].attrs if "timing" in file else {}
     return float(attributes.get("total_seconds", float("nan"))), float(attributes.get("peak_gib", float("nan")))
+
+
+class Artefact:
+    """A file of clatter, open for reading until it is closed; `with` closes it. Each class below reads one kind."""
+
+    kind = None  # the middle of its schema; None: any
+
+    def __init__(self, path):
+        """path: of the file, or an open h5py.File. Refused for a file that is missing, not HDF5 or of another kind."""
+        self.file = path if isinstance(path, h5py.File) else open_artefact(path, self.kind)  # for all that has no name here
+        self.path = pathlib.Path(self.file.filename)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def __repr__(self):
+        return f"{type(self).__name__}({str(self.path)!r})"
+
+    def close(self) -> None:
+        """Closes the file; arrays that were read stay."""
+        self.file.close()
+
+    def attribute(self, name):
+        """An attribute of the file, SI units: text, or a number."""
+        self._check(name in self.file.attrs, f"attribute {name}: missing")
+        value = self.file.attrs[name]
+        return value if isinstance(value, np.number) else text(value)
+
+    def _check(self, condition, otherwise) -> None:
+        """Refused with the file and a sentence where a condition does not hold."""
+        if not condition:
+            raise BadArtefact(f"{self.path}: {otherwise}")
+
+    @property
+    def certificate(self) -> dict:
+        """{name: number}: what was proved; units and meanings are in docs/formats.md."""
+        return {name: float(value) for name, value in certificate(self.file).items()}
+
+    @property
+    def configuration(self) -> str:
+        """Every value of configuration that was used, `table.key = value` a line."""
+        return configuration(self.file)
+
+    @property
+    def inputs(self) -> list:
+        """Pairs (path, state) of the files that were read: "unchanged", "changed since" or "missing"."""
+        return inputs(self.file)
+
+    @property
+    def seconds(self) -> float:
+        """Time that the program took [s]."""
+        return totals(self.file)[0]
