@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A Markdown document as HTML."""
+import re
+
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
@@ -27,7 +29,7 @@ def with_links(document, inline, translated):
 def rendered(document, text, translated):
     """(title, [(anchor, heading)] of the second level, HTML) of a document; `translated` is a links.Links."""
     parser = MarkdownIt("commonmark", {"html": False}).enable("table")
-    tokens = parser.parse(text)
+    tokens = parser.parse(re.sub(r"^((?:> )?)<!--.*-->\n", r"\1\n", text, flags=re.M))  # marks for tests and tools
     headings = [(token, following) for token, following in zip(tokens, tokens[1:]) if token.type == "heading_open"]
     for (token, _), anchor in zip(headings, links.slugs(following.content for _, following in headings)):
         token.attrSet("id", anchor)

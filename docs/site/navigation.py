@@ -11,6 +11,8 @@ KEYS = [(f"docs/keys/{name}.md", name) for name in ("mesh", "fe", "modes", "rom"
 # Heading: [(document of the repository, or page of the C++ reference; its title)].
 NAVIGATION = {
     "": [("README.md", "clatter")],
+    "Tutorials": [("docs/tutorial/README.md", "Tutorials"), ("docs/tutorial/1-beam.md", "1. Beam"),
+                  ("docs/tutorial/2-cad-part.md", "2. CAD part"), ("docs/tutorial/3-deck.md", "3. Deck")],
     "Programs": [("mesh/README.md", "mesh"), ("mesh/deck/README.md", "mesh/deck"), ("assembly/README.md", "assembly"),
                  ("modal/README.md", "modal"), ("condense/README.md", "condense"), ("dynamics/README.md", "dynamics"),
                  ("docs/dynamics/theory.md", "dynamics: theory"), ("docs/dynamics/methods.md", "dynamics: methods"),

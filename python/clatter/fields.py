@@ -23,8 +23,8 @@ def piece(field, *wanted):
     for name in wanted:
         if name in present:
             return f"analysis/{name}"
-    raise BadArtefact(f"{field.filename}: analysis: found {', '.join(present)}, "
-                      f"expected {' or '.join(wanted)}")
+    raise BadArtefact(f"{field.filename}: analysis: found {', '.join(present)}, expected {' or '.join(wanted)}"
+                      + (" (of a run with cycles, and cycle = true in its field.toml)" if wanted == ("cycle",) else ""))
 
 
 def sensor_names(field, at):

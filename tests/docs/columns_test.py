@@ -12,7 +12,7 @@ def too_long(text):
     """Numbers of the lines of prose beyond 100 columns. Tables and blocks may be wide, and so may what cannot be divided."""
     found, fenced = [], False
     for number, line in enumerate(text.split("\n"), 1):
-        fenced ^= line.startswith("```")
+        fenced ^= line.removeprefix("> ").startswith("```")
         prose = not fenced and not re.match(r" *\||    ", line)
         divisible = " " in re.sub(r"`[^`]*`", "code", re.sub(r"^ *(- |\d+\. )?", "", line))
         if len(line) > COLUMNS and prose and divisible:
@@ -29,7 +29,7 @@ class Columns(unittest.TestCase):
 
     def test_long_lines_are_found_and_tables_and_blocks_are_left(self):
         words, code = "word " * 30, "`" + "code " * 30 + "`"
-        text = f"{words}\n- {words}\n| {words}|\n    {words}\n{code}\n{code} and\n- {code}\n```\n{words}\n```\n{words[:99]}"
+        text = f"{words}\n- {words}\n| {words}|\n    {words}\n{code}\n{code} and\n- {code}\n```\n{words}\n```\n> ```\n> {words}\n> ```\n{words[:99]}"
         self.assertEqual(too_long(text), [1, 2, 6])
 
 

@@ -85,6 +85,13 @@ class Documents(unittest.TestCase):
                      "<pre><code>code"):
             self.assertIn(part, shown)
 
+    def test_comments_are_not_shown(self):
+        import documents
+        text = "# A\n\n<!-- a mark -->\n| x |\n|---|\n| y |\n<!-- end -->\n\n> z\n>\n> <!-- exit code 2 -->\n"
+        shown = documents.rendered("README.md", text, links.Links(FILES, HEADERS))[2]
+        self.assertNotIn("!--", shown)
+        self.assertIn("<table>", shown)
+
     def test_every_link_and_anchor_of_the_documents_leads_somewhere(self):
         import documents
         import make_site

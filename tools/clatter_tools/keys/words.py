@@ -48,7 +48,7 @@ def line_of(path, key):
     """Two lines for the terminal."""
     facts = ([values_of(key)] if "table" not in key else [heading_of(key, path)]) + (["required"] if key.get("required") else []) + \
         ([f"default {key['default']}"] if key.get("default", "[]") != "[]" else []) + rules_of(key)
-    return f"  {path:<26}{key['meaning']}{unit_of(key)}\n{'':28}{', '.join(facts)}"
+    return f"  {path:<26} {key['meaning']}{unit_of(key)}\n{'':29}{', '.join(facts)}"
 
 
 def text_of(table, path=""):

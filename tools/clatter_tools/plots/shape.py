@@ -127,8 +127,9 @@ def strongest_instant(field):
     names = sorted(field["frames/velocity"])
     moved = [elastic_part(field, field[f"frames/velocity/{name}"][()].astype(float)) for name in names]
     best = int(np.argmax([mean_square(field, velocity) for velocity in moved]))
-    time = dataset(field, "frames/time")[best]
-    return f"{time * 1e3:.2f} ms after firing TDC,\nthe instant of largest motion", moved[best]
+    time = f"{dataset(field, 'frames/time')[best] * 1e3:.2f} ms"
+    when = f"{time} after firing TDC" if "frames/crank_angle_deg" in field else f"After {time}"
+    return f"{when},\nthe instant of largest motion", moved[best]
 
 
 def strongest_line(field):
