@@ -61,9 +61,7 @@ RunControl control_of(const RunArguments& a, const Scene& scene) {
   return control;
 }
 
-Reader reader_of(int stream) {
-  return isatty(stream) != 0 ? Reader::kTerminal : Reader::kFile;
-}
+Reader reader_of(int stream) { return isatty(stream) != 0 ? Reader::kTerminal : Reader::kFile; }
 
 void run_scene(const RunArguments& a, const CommonOptions& common) {
   stop_on_signals();
@@ -74,7 +72,7 @@ void run_scene(const RunArguments& a, const CommonOptions& common) {
   clock.lap("read and modal bodies");
   say("effects:");
   const auto model = build_model(scene, bodies);
-  for (const auto& row : effect_lines(model->effects, false, reader_of(STDERR_FILENO))) say(row);
+  for (const auto& row : effect_rows(model->effects, false, reader_of(STDERR_FILENO))) say(row);
   const std::string size = check_size(scene, predict_size(scene, bodies), a.output);
   if (!size.empty()) say(size);
   require_no_stop(a.output);
@@ -91,8 +89,7 @@ void run_scene(const RunArguments& a, const CommonOptions& common) {
                   finished);
   require_finished(result, a.output);
   remove_unfinished(a.output);
-  for (const std::string& line :
-       describe(result, clock.total_seconds(), reader_of(STDOUT_FILENO)))
+  for (const std::string& line : describe(result, clock.total_seconds(), reader_of(STDOUT_FILENO)))
     print_result(line);
   say(fmt::format("{} written", a.output.string()));
   print_json_result(a.output, json_of(result), clock, common);

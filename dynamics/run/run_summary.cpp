@@ -47,7 +47,7 @@ void remove_unfinished(const std::filesystem::path& output) {
   std::filesystem::remove(beside(output, kInterrupted));
 }
 
-std::vector<std::string> effect_lines(const EffectTable& effects, bool with_cost, Reader reader) {
+std::vector<std::string> effect_rows(const EffectTable& effects, bool with_cost, Reader reader) {
   std::vector<std::string> lines = effects.lines(with_cost);
   if (reader == Reader::kFile) return lines;
   std::vector<std::string> on;
@@ -61,7 +61,7 @@ std::vector<std::string> effect_lines(const EffectTable& effects, bool with_cost
 
 std::vector<std::string> describe(const RunResult& result, double seconds, Reader reader) {
   std::vector<std::string> lines{"effects (seconds of their elements):"};
-  for (std::string& row : effect_lines(result.model->effects, true, reader))
+  for (std::string& row : effect_rows(result.model->effects, true, reader))
     lines.push_back(std::move(row));
   const StepStatistics& s = result.statistics;
   lines.push_back(fmt::format(

@@ -32,7 +32,7 @@ void remove_unfinished(const std::filesystem::path& output);
 enum class Reader { kFile, kTerminal };
 
 /// The effects of a scene as lines of text, with or without the seconds of their elements.
-std::vector<std::string> effect_lines(const EffectTable& effects, bool with_cost, Reader reader);
+std::vector<std::string> effect_rows(const EffectTable& effects, bool with_cost, Reader reader);
 
 /// Summary lines for the user: effects, steps, seconds, periodicity, energy residue.
 /// @param seconds of the entire program
