@@ -2,6 +2,7 @@
 #include "dynamics/run_command.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <csignal>
@@ -60,6 +61,8 @@ RunControl control_of(const RunArguments& a, const Scene& scene) {
   return control;
 }
 
+Reader reader_of(int stream) { return isatty(stream) != 0 ? Reader::kTerminal : Reader::kFile; }
+
 void run_scene(const RunArguments& a, const CommonOptions& common) {
   stop_on_signals();
   plan_run_files(a.output);
@@ -68,7 +71,8 @@ void run_scene(const RunArguments& a, const CommonOptions& common) {
   const LoadedBodies bodies = load_bodies(scene);
   clock.lap("read and modal bodies");
   say("effects:");
-  for (const auto& row : build_model(scene, bodies)->effects.lines(false)) say(row);
+  const auto model = build_model(scene, bodies);
+  for (const auto& row : effect_rows(model->effects, false, reader_of(STDERR_FILENO))) say(row);
   const std::string size = check_size(scene, predict_size(scene, bodies), a.output);
   if (!size.empty()) say(size);
   require_no_stop(a.output);
@@ -85,7 +89,8 @@ void run_scene(const RunArguments& a, const CommonOptions& common) {
                   finished);
   require_finished(result, a.output);
   remove_unfinished(a.output);
-  for (const std::string& line : describe(result, clock.total_seconds())) print_result(line);
+  for (const std::string& line : describe(result, clock.total_seconds(), reader_of(STDOUT_FILENO)))
+    print_result(line);
   say(fmt::format("{} written", a.output.string()));
   print_json_result(a.output, json_of(result), clock, common);
 }

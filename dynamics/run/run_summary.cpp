@@ -47,9 +47,22 @@ void remove_unfinished(const std::filesystem::path& output) {
   std::filesystem::remove(beside(output, kInterrupted));
 }
 
-std::vector<std::string> describe(const RunResult& result, double seconds) {
+std::vector<std::string> effect_rows(const EffectTable& effects, bool with_cost, Reader reader) {
+  std::vector<std::string> lines = effects.lines(with_cost);
+  if (reader == Reader::kFile) return lines;
+  std::vector<std::string> on;
+  for (size_t row = 0; row < lines.size(); ++row)
+    if (effects.effects()[row].on) on.push_back(std::move(lines[row]));
+  if (const size_t off = lines.size() - on.size(); off > 0)
+    on.push_back(fmt::format("  {} effect{} off (--effects lists {})", off, off == 1 ? "" : "s",
+                             off == 1 ? "it" : "them"));
+  return on;
+}
+
+std::vector<std::string> describe(const RunResult& result, double seconds, Reader reader) {
   std::vector<std::string> lines{"effects (seconds of their elements):"};
-  for (const auto& row : result.model->effects.lines(true)) lines.push_back(row);
+  for (std::string& row : effect_rows(result.model->effects, true, reader))
+    lines.push_back(std::move(row));
   const StepStatistics& s = result.statistics;
   lines.push_back(fmt::format(
       "steps: {} accepted, {} rejected by error, {} by Newton, {} refused; {:.3g} to {:.3g} "

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/json_line.hpp"
+#include "dynamics/component/effects.hpp"
 #include "dynamics/run/simulate.hpp"
 
 namespace clatter::dynamics {
@@ -27,9 +28,16 @@ void require_finished(const RunResult& result, const std::filesystem::path& outp
 /// Removes the checkpoint and the file of an interruption, after a finished run.
 void remove_unfinished(const std::filesystem::path& output);
 
+/// Who reads the lines: of a terminal's effects those that are off are one line.
+enum class Reader { kFile, kTerminal };
+
+/// The effects of a scene as lines of text, with or without the seconds of their elements.
+std::vector<std::string> effect_rows(const EffectTable& effects, bool with_cost, Reader reader);
+
 /// Summary lines for the user: effects, steps, seconds, periodicity, energy residue.
 /// @param seconds of the entire program
-std::vector<std::string> describe(const RunResult& result, double seconds);
+std::vector<std::string> describe(const RunResult& result, double seconds,
+                                  Reader reader = Reader::kFile);
 
 /// For --json: steps, energy_residue.
 JsonMembers json_of(const RunResult& result);

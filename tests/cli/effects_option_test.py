@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter-dynamics --effects`: what a scene simulates and what it costs, without a run."""
 import json
+import os
+import pty
+import re
+import subprocess
 import unittest
 
 import stages
@@ -37,6 +41,29 @@ class EffectsOption(stages.PipelineTest):
         self.assertLessEqual(max(map(len, lines)), 120)
         for text in ("off gravity: ", "    equation: f = -phi^T M r g", "    needs: nothing; switch: gravity_m_s2 > 0"):
             self.assertTrue(any(line.startswith(text) for line in lines), text)
+
+    def test_a_run_on_a_terminal_counts_the_effects_that_are_off_and_one_in_a_file_lists_them(self):
+        def run(stdout, stderr):
+            return subprocess.run([stages.BIN / "clatter-dynamics", "step.run.toml", "-o", "again.run.h5"], cwd=self.folder,
+                                  stdout=stdout, stderr=stderr, check=True, timeout=300)
+        listed = run(subprocess.PIPE, subprocess.PIPE)
+        names = {row["name"]: row["state"] for row in json.loads(self.effects("--json").stdout)["effects"]}
+        off = [name for name, state in names.items() if state == "off"]
+        self.assertGreater(len(off), 1)
+        ours, theirs = pty.openpty()
+        seen = run(theirs, subprocess.PIPE)
+        os.close(theirs)
+        with open(ours, "rb", buffering=0) as terminal:
+            text = ""
+            while "energy residue" not in text:  # the last line, after which a read of a closed terminal fails
+                text += terminal.read(65536).decode().replace("\r", "")
+        self.assertIn(f"  {len(off)} effects off (--effects lists them)", text)
+        for name in off:
+            self.assertRegex(listed.stdout.decode(), rf"\n  {re.escape(name)} +off ")
+            self.assertRegex(seen.stderr.decode(), rf"\n  {re.escape(name)} +off ")  # of which a file gets all
+            self.assertNotRegex(text, rf"\n  {re.escape(name)} +off ")
+        for name in names.keys() - set(off):
+            self.assertRegex(text, rf"\n  {re.escape(name)} +on ")
 
 
 if __name__ == "__main__":
