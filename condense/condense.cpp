@@ -2,9 +2,6 @@
 #include "condense/condense.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
 
 #include "condense/basis/cutoff_search.hpp"
 #include "condense/basis/inertia_force.hpp"
@@ -20,19 +17,6 @@ void report_repeated(const DofPartition& partition) {
   if (partition.repeated.empty()) return;
   warn(fmt::format("boundary: {} DoFs are in two sets and got one coordinate each, the first is {}",
                    partition.repeated.size(), partition.repeated.front()));
-}
-
-/// A sensor of the part that the reduced model does not have cannot be observed later.
-void report_lost_sensors(const fe::FeModel& model, const CondenseOptions& options) {
-  std::vector<std::string> lost;
-  const auto is_kept = [&](const std::string& name) {
-    return std::ranges::count(options.boundary, name) + std::ranges::count(options.rows, name) > 0;
-  };
-  for (const auto& [name, set] : model.sets)
-    if (set.kind == "sensor" && !is_kept(name)) lost.push_back(name);
-  if (!lost.empty())
-    warn(fmt::format("sensors of the part that are neither in boundary nor in rows are lost: {}",
-                     fmt::join(lost, ", ")));
 }
 
 /// Rigid motions (n x m) in `size` reduced coordinates: their boundary rows; fixed-interface modes
@@ -69,7 +53,6 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
                            StepClock& clock) {
   const fe::FeModel& model = part.full;
   report_repeated(part.dofs);
-  report_lost_sensors(model, options);
   SkinRecovery recovery(part, options.skin, options.rows);
   StaticPart statics = static_part(part, recovery.unknowns(), clock);
   SearchedBasis found = options.modes.accurate_to_hz > 0.0

@@ -2,7 +2,9 @@
 #include "condense/condense_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "condense/add_rows.hpp"
@@ -25,6 +27,21 @@ struct CondenseArguments {
 /// clatter-condense-mpi does it too.
 bool several_processes_could(const CondenseOptions& options) {
   return options.modes.method != sparse::EigenMethod::kAmls;
+}
+
+/// A sensor of the part that the reduced model does not have cannot be observed later.
+void report_lost_sensors(const fe::FeModel& model, const CondenseOptions& options) {
+  std::vector<std::string> lost;
+  const auto is_kept = [&](const std::string& name) {
+    return std::ranges::count(options.boundary, name) + std::ranges::count(options.rows, name) > 0;
+  };
+  for (const auto& [name, set] : model.sets)
+    if (set.kind == "sensor" && !is_kept(name)) lost.push_back(name);
+  if (!lost.empty())
+    warn(
+        fmt::format("sensors of the part that are neither in boundary nor in rows are lost: {} "
+                    "(clatter-condense add-rows brings them back)",
+                    fmt::join(lost, ", ")));
 }
 
 rom::ReducedModel reduce(const PartitionedModel& part, const CondenseOptions& options,
@@ -53,6 +70,7 @@ void condense_part(const CondenseArguments& a, const PartSource& source,
   options.order = rom::read_elimination_order(a.output);
   const std::optional<fe::FeModel> model = source.read(a.model, common);
   if (!model) return;
+  report_lost_sensors(*model, options);
   clock.lap(fmt::format("read {} DoF", model->size()));
   const rom::ReducedModel reduced =
       with_memory_advice(several_processes_could(options) ? source.memory_advice : "", [&] {

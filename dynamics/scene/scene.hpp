@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Contents of a scene (stem.run.toml). docs/dynamics/scene.md documents the file; values here are SI.
+// Contents of a scene (stem.run.toml). docs/dynamics/scene.md documents the file; values here are
+// SI.
 #include <filesystem>
 #include <optional>
 #include <string>

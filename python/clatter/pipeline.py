@@ -28,10 +28,13 @@ def program(name) -> str:
 
 
 def environment(**more):
-    """That of make: its own variables are those of a fresh start, CLATTER_BIN is absolute."""
+    """That of make: its own variables are those of a fresh start, CLATTER_BIN is absolute, and the command clatter is in PATH, whose
+    rules a Makefile includes."""
     found = {key: value for key, value in os.environ.items() if key not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "MAKEOVERRIDES")}
     if found.get("CLATTER_BIN"):
         found["CLATTER_BIN"] = os.path.abspath(found["CLATTER_BIN"])
+    if shutil.which("clatter") is None:
+        found["PATH"] = os.pathsep.join([str(pathlib.Path(program("clatter")).parent), found.get("PATH", "")])
     return {**found, **more}
 
 

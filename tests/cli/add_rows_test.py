@@ -50,6 +50,12 @@ class RowsTest(stages.PipelineTest):
 
 
 class AddRows(RowsTest):
+    def test_a_sensor_that_a_reduction_loses_is_named(self):
+        lost = "warning: sensors of the part that are neither in boundary nor in rows are lost: sensor_side (clatter-condense add-rows"
+        self.assertIn(lost, self.condense("without.rom.h5").stderr)
+        self.assertNotIn("are lost", self.condense("with.rom.h5", 'rows = ["sensor_side"]').stderr)
+        self.assertNotIn("are lost", self.add("--set", "sensor_side").stderr)
+
     def test_rows_added_later_are_those_requested_at_once(self):
         self.condense("once.rom.h5", 'skin = ["z_max", "y_max"]', 'rows = ["sensor_side"]')
         done = self.add("--surface", "y_max", "--set", "sensor_side", "--json")

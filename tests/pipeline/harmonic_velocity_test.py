@@ -39,7 +39,7 @@ to_hz = 2000.0
 [[window]]
 name = "period"
 from_s = {PERIOD * (PERIODS - 1):.9f}
-to_s = {PERIOD * PERIODS - STEP:.9f}
+to_s = {PERIOD * PERIODS:.9f}
 taper = "none"
 [lines]
 frequencies_hz = {LINES.tolist()}

@@ -58,7 +58,7 @@ TEST_F(Averages, OneSegmentIsTheUndividedWindowToTheBit) {
   const RunBody body(write_run(folder_, model_, {}, noise()), "");
   const WindowRule undivided{.name = "w", .span = {-300.0, 200.0}, .taper = Taper::kHann};
   WindowRule one = undivided;
-  one.segments = {.length = 501.0, .overlap = 0.75};
+  one.segments = {.length = 500.0, .overlap = 0.75};
   const Analysis a = analyse_window(body, undivided), b = analyse_window(body, one);
   EXPECT_EQ(b.piece.segments(), 1);
   EXPECT_EQ(a.piece.count, b.piece.segment);
@@ -74,7 +74,7 @@ TEST_F(Averages, PowersAreTheMeanOfTheSegmentsAnalysedOneByOne) {
   WindowRule rule{.name = "w", .span = {0.0, 2880.0}, .taper = Taper::kHann};
   rule.segments = {.length = 600.0, .overlap = 0.6};
   const Analysis all = analyse_window(body, rule);
-  // 2881 samples, segments of 600, each 240 after the last: 1 + (2881 - 600) / 240 = 10.
+  // 2880 samples, segments of 600, each 240 after the last: 1 + (2880 - 600) / 240 = 10.
   ASSERT_EQ(all.piece.segments(), 10);
   EXPECT_EQ(all.piece.segment, 600);
   EXPECT_EQ(all.piece.hop, 240);
@@ -83,7 +83,7 @@ TEST_F(Averages, PowersAreTheMeanOfTheSegmentsAnalysedOneByOne) {
   for (int k = 0; k < 10; ++k) {
     WindowRule one{.name = "w", .taper = Taper::kHann};
     const double step = body.clock().step_s;
-    one.span = {240 * k * step, (240 * k + 599) * step, true};
+    one.span = {240 * k * step, (240 * k + 600) * step, true};
     const Analysis segment = analyse_window(body, one);
     ASSERT_EQ(segment.piece.count, 600);
     erp += segment.panels[0].erp / 10.0;
@@ -94,7 +94,7 @@ TEST_F(Averages, PowersAreTheMeanOfTheSegmentsAnalysedOneByOne) {
   EXPECT_LT((all.sensors[0].acceleration_powers - sensor).norm(), 1e-13 * sensor.norm());
   EXPECT_EQ(all.velocity.amplitude.size(), 0);
   EXPECT_EQ(all.sensors[0].velocity_lines.size(), 0);
-  EXPECT_EQ(all.panels[0].instant_mean_square.size(), 2881);
+  EXPECT_EQ(all.panels[0].instant_mean_square.size(), 2880);
 }
 
 TEST_F(Averages, NoiseScattersAsTheEquivalentNumberOfAveragesSays) {
@@ -134,9 +134,9 @@ TEST_F(Averages, SegmentsThatDoNotFitAreRefused) {
     return test::refusal_of([&] { window(body.clock(), rule, "run"); });
   };
   EXPECT_EQ(refusal({.length = 720.0}),
-            "run: window 'w': found segments of 720 deg, 720 samples, expected 8 to 501 samples");
+            "run: window 'w': found segments of 720 deg, 720 samples, expected 8 to 500 samples");
   EXPECT_EQ(refusal({.length = 5e-4, .in_seconds = true}),
-            "run: window 'w': found segments of 0.0005 s, 6 samples, expected 8 to 501 samples");
+            "run: window 'w': found segments of 0.0005 s, 6 samples, expected 8 to 500 samples");
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ TEST(Sensors, OfAPositionSaysItsDistanceAndIsRefusedInAnotherUnit) {
                       "expected at most an element's size there, 1.41e+03 mm: positions are in "
                       "metres, this one fits in millimetres"});
   EXPECT_EQ(test::refusal_of([&] {
-              find_sensors({{.name = "top", .position = Eigen::Vector3d(0, 0, 4)}}, model, T,
+              find_sensors({{.name = "top", .position = Eigen::Vector3d(4, 4, 4)}}, model, T,
                            geometry);
             }).find("fits"),
             std::string::npos);
