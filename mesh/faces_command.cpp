@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
+#include "core/base/units.hpp"
 #include "core/base/write_artefact.hpp"
 #include "mesh/cad_alone.hpp"
 #include "mesh/deck/import.hpp"
@@ -58,7 +59,11 @@ void show_faces(const FacesArguments& a, const CommonOptions& common) {
                     a.output.string()));
   }
   for (const std::string& line : table_of(found.list)) print_result(line);
-  if (common.json) print_json(json_of(found.list));
+  if (!common.json) return;
+  JsonMembers members = json_of(found.list);
+  members.emplace_back("element_size_mm", json_number(default_element_size(found.list) *
+                                                      found.metres / kMilli));
+  print_json(members);
 }
 
 }  // namespace

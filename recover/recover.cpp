@@ -332,6 +332,24 @@ JsonMembers json_of(const Summary& summary) {
   return members;
 }
 
+namespace {
+
+/// How the energy of a window follows from its power, and whether the window holds all of it.
+std::string energy_text(const Analysis& analysis) {
+  constexpr double kOver = 0.01;
+  const double duration = analysis.piece.duration_s(), left = last_tenth_share(analysis);
+  const std::string means = fmt::format("powers are means over {:.4g} s", duration);
+  if (left > kOver)
+    return fmt::format("{}; the motion goes on at their end: the last tenth has {:.2g} % of its "
+                       "energy, and a longer window has more\n",
+                       means, 100.0 * left);
+  return fmt::format("{}: the energy level is the power level {:+.2f} dB re 1 pJ, of any window "
+                     "that holds the event\n",
+                     means, level_db(duration, 1.0));
+}
+
+}  // namespace
+
 std::string summary_text(const Summary& summary) {
   const Analysis& analysis = summary.analyses.front();
   const LevelReferences& ref = summary.options.references;
@@ -353,11 +371,7 @@ std::string summary_text(const Summary& summary) {
                   summary.options.air.density * summary.options.air.sound_speed,
                   summary.options.air.loss_factor, summary.options.spectrum.from_hz);
   if (has_sound(summary)) text += sound_summary(summary.sounds.front(), analysis.piece, ref);
-  if (analysis.piece.has_energy())
-    text += fmt::format(
-        "powers are means over {:.4g} s: the energy level of what does not repeat is the power "
-        "level {:+.2f} dB re 1 pJ, whatever the window\n",
-        analysis.piece.duration_s(), level_db(analysis.piece.duration_s(), 1.0));
+  if (analysis.piece.has_energy()) text += energy_text(analysis);
   for (const SensorResult& result : analysis.sensors)
     text += fmt::format(
         "sensor {:<17} peak acceleration {:.4g} m/s2\n", result.sensor->name,

@@ -15,7 +15,7 @@ double size_around(const RowMatrix& nodes, const IndexMatrix& cells, int32_t nod
 
 /// Says how far the nearest node lies from the requested position.
 /// @param what "sensor 'top': the nearest node of the skin"
-/// @param size of the elements there [m]
+/// @param size of the elements there [m]; 0 where there are none: any distance will do
 /// @param unit of positions as the user writes them, "metres" or "length_unit"
 /// @throws InputError when it lies farther than `size`: with the node's position, and with the unit
 /// in which the request would fit

@@ -17,24 +17,30 @@ RAISED = {2: Refused, 3: Failed, 4: CannotWrite}
 SAID = re.compile(r"^clatter(?:-\w+)*: error: (.*)$", re.M)
 
 
-def program(name) -> str:
-    """The path of a program: in CLATTER_BIN, beside the running one, in the source tree or the installation of this package, or in PATH."""
+def find(name):
+    """The path of a program as `program` says, or None."""
     beside = pathlib.Path(sys.argv[0]).resolve().parent
     folders = [os.environ.get("CLATTER_BIN", beside), beside, *BESIDE]
-    found = next((path for folder in folders if (path := pathlib.Path(folder) / name).is_file()), shutil.which(name))
+    return next((str(path) for folder in folders if (path := pathlib.Path(folder) / name).is_file()), shutil.which(name))
+
+
+def program(name) -> str:
+    """The path of a program: in CLATTER_BIN, beside the running one, in the source tree or the installation of this package, or in PATH."""
+    found = find(name)
     if found is None:
         raise BadArtefact(f"{name} was not found beside this program or in PATH; build it (make build)")
-    return str(found)
+    return found
 
 
 def environment(**more):
-    """That of make: its own variables are those of a fresh start, CLATTER_BIN is absolute, and the command clatter is in PATH, whose
-    rules a Makefile includes."""
+    """That of make: its own variables are those of a fresh start, CLATTER_BIN is absolute, and PATH finds the command clatter of these
+    tools, whose rules a Makefile includes."""
     found = {key: value for key, value in os.environ.items() if key not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "MAKEOVERRIDES")}
     if found.get("CLATTER_BIN"):
         found["CLATTER_BIN"] = os.path.abspath(found["CLATTER_BIN"])
-    if shutil.which("clatter") is None:
-        found["PATH"] = os.pathsep.join([str(pathlib.Path(program("clatter")).parent), found.get("PATH", "")])
+    own, other = find("clatter"), shutil.which("clatter")
+    if own and not (other and os.path.samefile(own, other)):
+        found["PATH"] = os.pathsep.join([os.path.dirname(own), found.get("PATH", "")])
     return {**found, **more}
 
 

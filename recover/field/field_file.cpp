@@ -146,6 +146,7 @@ void write_analysis(H5File& file, const Analysis& analysis, const LevelReference
   file.set(at, "first_sample", piece.first);
   file.set(at, "samples", piece.count);
   file.set(at, "duration_s", piece.duration_s());
+  file.set(at, "last_tenth_share", last_tenth_share(analysis));
   file.set(at, "ftdc_run_time_s", piece.ftdc_s);
   file.set(at, "speed_rpm", 60.0 * analysis.speed_hz);
   file.set(at, "line_spacing_hz", analysis.velocity.spacing_hz());

@@ -167,6 +167,12 @@ double equivalent_averages(const Piece& window) {
   return static_cast<double>(n) / sum;
 }
 
+double last_tenth_share(const Analysis& analysis) {
+  const Eigen::VectorXd& square = analysis.panels.front().instant_mean_square;
+  const double all = square.sum();
+  return all > 0.0 ? square.tail((square.size() + 9) / 10).sum() / all : 0.0;
+}
+
 double cycle_to_cycle_difference(const RunBody& body, const Piece& cycle, const PanelForm& skin) {
   const auto before = piece_samples(body, cycle, "v", -cycle.count, cycle.count);
   if (!before) return -1.0;

@@ -63,6 +63,10 @@ Analysis analyse(const RunBody& body, const Piece& piece, const Options& options
 /// taper with itself, moved by j hops, over that at j = 0 (Welch 1967).
 double equivalent_averages(const Piece& window);
 
+/// Share of the skin's mean square normal velocity in the last tenth of the samples: of an event
+/// that the window holds it is small, of steady motion a tenth.
+double last_tenth_share(const Analysis& analysis);
+
 /// Relative difference between the last two cycles: sqrt of the time mean of the surface integral
 /// of (v_n - v_n,before)^2 over that of v_n^2. Negative when the run has no two cycles.
 double cycle_to_cycle_difference(const RunBody& body, const Piece& cycle, const PanelForm& skin);

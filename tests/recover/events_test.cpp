@@ -79,6 +79,20 @@ TEST_F(Event, EnergyDoesNotDependOnTheWindowAndPowerDoes) {
   EXPECT_NEAR(sound_of(0.0, 0.12), narrow, 0.05);
 }
 
+TEST_F(Event, WindowThatEndsBeforeTheMotionDoesSaysSo) {
+  knock_at(0.06);
+  const auto text_of = [&](double to) { return summary_text(recovered(seconds(0.05, to))); };
+  EXPECT_NE(text_of(0.07).find("of any window that holds the event"), std::string::npos);
+  const std::string cut = text_of(0.0605);
+  EXPECT_NE(cut.find("the motion goes on at their end: the last tenth has "), std::string::npos);
+  EXPECT_EQ(cut.find("of any window"), std::string::npos);
+  move(kMotion);  // steady: the last tenth has a tenth
+  recovered(seconds(0.02, 0.04));
+  EXPECT_NEAR(open_artefact(folder_ / "field.h5", kFieldSchema)
+                  .get_double("analysis/knock", "last_tenth_share"),
+              0.1, 1e-3);
+}
+
 TEST_F(Event, OneWindowIsHeardWhereThereIsNoCycle) {
   knock_at(0.06);
   recovered(seconds(0.05, 0.07));

@@ -7,7 +7,6 @@ import numpy as np
 BORES, PLANES = 6, 3     # at most, the largest first: of more the file would tell less
 WHOLE = 0.7              # part of a full cylinder's area: a bore with ports and slots has more, a fillet a quarter
 SAME = 1e-4              # of the part's size: axes and radii that differ by less are one
-CELLS = 30000.0          # at about this many cells clatter-mesh aims where no size is given
 
 
 @dataclasses.dataclass
@@ -76,12 +75,3 @@ def named(faces, unit):
                                                      f"normal {vector(np.round(face['direction'], 4))}")
                  for k, face in enumerate(planes, 1)]
     return surfaces, len(holes)
-
-
-def element_size_mm(nodes, triangles):
-    """The element size that clatter-mesh takes for CAD alone, from nodes [m] of a closed triangulation: of the volume
-    of regular tetrahedra, at most a tenth of the part, two digits."""
-    corners = nodes[triangles]
-    volume = abs(np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum()) / 6.0
-    size = 1e3 * min(np.cbrt(6.0 * np.sqrt(2.0) * volume / CELLS), 0.1 * np.linalg.norm(np.ptp(nodes, axis=0)))
-    return float(f"{size:.2g}")

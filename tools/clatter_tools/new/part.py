@@ -57,9 +57,9 @@ def write_cad(folder, path, stem, source):
     drawn = folder / "faces.h5"
     output, said = mesh_program("faces", path, "--json", "-o", drawn)
     found = json.loads(output.splitlines()[-1])
-    unit, faces = found["unit"], found["faces"]
+    unit, faces, element = found["unit"], found["faces"], float(found["element_size_mm"])
     with h5py.File(drawn) as file:
-        nodes, triangles = file["nodes"][()], file["triangles"][()]
+        nodes = file["nodes"][()]
     drawn.unlink()
     surfaces, holes = cad_faces.named(faces, unit)
     written = re.search(r"written in \w+|gives no unit", said)
@@ -68,14 +68,14 @@ def write_cad(folder, path, stem, source):
     scale = {"mm": 1e3, "m": 1.0, "cm": 1e2, "in": 1 / 0.0254}[unit]
     write(folder, f"{stem}.mesh.toml", templates.CAD_MESH.format(
         stem=stem, source=source, unit=unit, size=size, written=f"the file {written[0]}" if written else "the file is CAD",
-        element=cad_faces.element_size_mm(nodes, triangles),
+        element=element,
         surfaces="".join(f"\n[surface.{one.name}]   # {one.comment}\n{one.toml}\n" for one in surfaces)))
     couplings = "".join(f'\n[[coupling]]\nname = "{bore.name}"\nkind = "bearing"\nsurface = "{bore.name}"   # {bore.comment}\n'
                         for bore in bores)
     write(folder, f"{stem}.fe.toml", templates.CAD_FE.format(unit=unit if unit in ("m", "mm") else "m", couplings=couplings)
           + sensors(nodes, scale if unit in ("m", "mm") else 1.0))
     write_rest(folder, stem, nodes, [bore.name for bore in bores], ["[[setting]]", 'name = "element size"', 'unit = "mm"',
-               f'key = "{stem}.mesh.toml:mesh.element_size_mm"', f"values = {sizes(cad_faces.element_size_mm(nodes, triangles))}", "", ""])
+               f'key = "{stem}.mesh.toml:mesh.element_size_mm"', f"values = {sizes(element)}", "", ""])
     return [f"{path}: {written[0] if written else 'CAD'}, {size} {unit}; {len(faces)} faces",
             *(f"  {one.name:<8} {one.comment}" for one in surfaces),
             *([f"  {holes - len(bores)} smaller bores have no name: clatter-mesh faces {path} lists them"] if holes > len(bores) else []),

@@ -89,7 +89,6 @@ from_hz = 20.0
 name = "hit"
 from_s = 0.0
 to_s = {end}
-taper = "none"              # the record begins at rest, and a taper would take the hit away
 
 [frames]
 from_s = 0.0

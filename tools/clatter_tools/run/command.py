@@ -39,17 +39,9 @@ def run(options):
 
 
 def environment():
-    """That of make: this command and its programs are found where PATH does not name them."""
-    own = dict(os.environ)
-    here = pathlib.Path(sys.argv[0]).resolve().parent
-    if (here / "clatter").is_file():
-        own["PATH"] = f"{here}{os.pathsep}{own.get('PATH', '')}"
-    if "CLATTER_BIN" not in own:
-        try:
-            own["CLATTER_BIN"] = str(pathlib.Path(pipeline.program("clatter-mesh")).parent)
-        except BadArtefact:
-            pass  # of a Makefile that needs no stage; of others the rules say what is missing
-    return own
+    """That of make, with the folder of the programs; without one the rules say what is missing, if they need it."""
+    mesh = pipeline.find("clatter-mesh")
+    return pipeline.environment(**({"CLATTER_BIN": os.path.dirname(os.path.abspath(mesh))} if mesh else {}))
 
 
 def finished(make, tick=None):
