@@ -95,6 +95,12 @@ class Sharing(StandIns):
         (self.folder / "part.rom.h5").unlink()
         self.study()
         self.assertEqual(self.made, [])
+        # Nothing is known of the processor seconds of what was taken over: it is made where they are asked for.
+        self.write("study.toml", 'cost = "processor"\n' + SMALL)
+        self.study()
+        self.assertEqual(sorted(self.made), ["part.fe.h5", "part.mesh.h5", "part.rom.h5", "slap.run.h5"])
+        self.study()
+        self.assertEqual(self.made, [])
 
     def test_a_failed_variant_is_reported_and_the_rest_is_complete(self):
         self.write("study.toml", SMALL.replace("[2.0,", "[20.0, 2.0,"))

@@ -117,6 +117,8 @@ class Making:
         with self.store.alone():
             if self.wanted.reuse:
                 self.store.reuse(artefacts[BASE])
+            if self.wanted.cost == "processor":
+                self.store.drop_unmeasured()
             self.store.prepare()
             print(f"{self.wanted.path}: {len(artefacts)} variants, {len(self.store.made)} artefacts, {len(self.store.missing())} to be made", flush=True)
             self.store.make(jobs, [one for one in artefacts[BASE] if not self.store.path(one).exists()])

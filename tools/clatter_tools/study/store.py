@@ -4,6 +4,7 @@ import contextlib
 import dataclasses
 import fcntl
 import hashlib
+import math
 import os
 import pathlib
 import re
@@ -76,6 +77,12 @@ class Store:
         for one in self.made.values():
             if one.folder in stale or any(other.folder in stale for other in one.inputs.values()):
                 self.path(one).unlink(missing_ok=True)
+
+    def drop_unmeasured(self):
+        """Removes artefacts whose processor seconds are not known, those that an earlier run took over: they are made here."""
+        for one in self.made.values():
+            if self.path(one).exists() and not math.isfinite(self.processor_seconds(one)):
+                self.path(one).unlink()
 
     def reuse(self, made):
         """Takes artefacts, [Made] of the folder as it is, over from the pipeline's folder where make finds them up to date."""
