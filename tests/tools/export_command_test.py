@@ -42,6 +42,17 @@ class Command(unittest.TestCase):
         with h5py.File(self.folder / "ball.field.h5", "r+") as file:
             change(file)
 
+    def test_lines_that_the_field_file_left_out_are_counted(self):
+        def refine(file):
+            del file["analysis/cycle/frequency_hz"]
+            file["analysis/cycle/frequency_hz"] = 50.0 * np.arange(30)
+
+        self.changed(refine)
+        said, _ = ball.export(self.folder, "-o", "a.csv", "--at", "90:300")
+        self.assertIn("a.csv: 2 lines (of 4 in this range: [lines] from_hz, to_hz in field.toml store them all) of ", said)
+        said, _ = ball.export(self.folder, "-o", "b.csv", "--at", "100,250")
+        self.assertIn("b.csv: 2 lines of ", said)
+
     def test_a_table_has_a_row_per_node_and_line(self):
         ball.export(self.folder, "-o", "a.csv", "--at", "250,1033", "--quantity", "displacement")
         comments, names, rows = table(self.folder / "a.csv")

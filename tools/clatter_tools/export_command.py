@@ -6,7 +6,9 @@ import pathlib
 import sys
 import time
 
-from clatter.artefact import BadArtefact, open_artefact
+import numpy as np
+
+from clatter.artefact import BadArtefact, open_artefact, text
 from .export import acoustic_source, derived, field_source, formats, sensors
 from .export.whole_files import WholeFiles
 
@@ -84,13 +86,24 @@ def motion_to_write(file, options, form, quantities):
     return derived.split(surface, motion) if options.linear or form.needs_linear else (surface, motion)
 
 
+def chosen_of(file, motion, asked):
+    """What a field file left out between the lowest and the highest line that is written; "" for frames, where it
+    left out none, and where lines were `asked` for one by one."""
+    at = f"analysis/{text(file['lines'].attrs.get('analysis', 'cycle'))}/frequency_hz" if "lines" in file else "none"
+    if motion.kind != "lines" or at not in file or (asked and ":" not in asked):
+        return ""
+    hz = file[at][()]
+    between = np.count_nonzero((hz >= min(motion.at) * (1.0 - 1e-9)) & (hz <= max(motion.at) * (1.0 + 1e-9)))
+    return f" (of {between} in this range: [lines] from_hz, to_hz in field.toml store them all)" if between > len(motion.at) else ""
+
+
 def write_motion(file, path, options, name, form):
     """Writes lines or frames; returns the paths and a summary."""
     quantities = formats.quantities_of(name, options.quantity, options.skin)
     surface, motion = motion_to_write(file, options, form, quantities)
     with WholeFiles() as files:
         form.write(files, path, surface, motion, Options(quantities, options.dataset), progress)
-    return files.paths, (f"{len(motion.at)} {motion.kind} of {', '.join(quantities)}, {len(surface.nodes)} nodes, "
+    return files.paths, (f"{len(motion.at)} {motion.kind}{chosen_of(file, motion, options.at)} of {', '.join(quantities)}, {len(surface.nodes)} nodes, "
                          f"{len(surface.triangles)} faces of {surface.triangles.shape[1]} nodes")
 
 
