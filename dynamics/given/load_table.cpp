@@ -21,15 +21,16 @@ constexpr double kLargestPressure = 1e9;  // of a gas; engines stay below 0.05 G
 
 void check_units(const CsvColumns& table, const std::filesystem::path& path,
                  const std::string& abscissa_unit, const std::string& unit) {
-  const auto refuse = [&](const std::string& name, const std::string& found,
-                          const std::string& expected) {
-    throw InputError(fmt::format("{}:{}: {} is in [{}], expected a unit of [{}]", path.string(),
-                                 table.lines.front() - 1, name, found, expected));
-  };
-  if (table.abscissa_unit != abscissa_unit) {
-    refuse(table.abscissa_name, table.abscissa_unit, abscissa_unit);
-  }
-  if (table.unit != unit) refuse(table.name, table.unit, unit);
+  const std::string where = fmt::format("{}:{}", path.string(), table.lines.front() - 1);
+  if (table.abscissa_unit != abscissa_unit)
+    throw InputError(fmt::format("{}: found {} in [{}] as the first column, expected {}", where,
+                                 table.abscissa_name, table.abscissa_unit,
+                                 abscissa_unit == "rad"
+                                     ? "crank_angle [deg]: these values are over the crank angle"
+                                     : "time [s]: these values are over time"));
+  if (table.unit != unit)
+    throw InputError(fmt::format("{}: {} is in [{}], expected a unit of [{}]", where, table.name,
+                                 table.unit, unit));
 }
 
 double median_step(const CsvColumns& table) {

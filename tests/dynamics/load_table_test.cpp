@@ -75,6 +75,8 @@ TEST(CycleTable, BadRowsAreRefusedWithFileAndLine) {
   EXPECT_TRUE(has(refusal("unit", "angle [grad], pressure [bar]\n1, 2\n"), "unit [grad]"));
   EXPECT_TRUE(
       has(refusal("newton", "angle [deg], pressure [N]\n1, 2\n"), "expected a unit of [Pa]"));
+  EXPECT_TRUE(has(refusal("time", "time [s], pressure [bar]\n1, 2\n"),
+                  "found time in [s] as the first column, expected crank_angle [deg]"));
   EXPECT_TRUE(has(refusal("column", "angle [deg], force [N]\n1, 2\n"), "no column \"pressure\""));
   EXPECT_TRUE(has(refusal("empty", ""), "found no rows"));
 }
