@@ -6,25 +6,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/integrate/rounding_floor.hpp"
+
 namespace clatter::dynamics {
 
 namespace {
 
 constexpr double kWanted = 0.01;
-/// A body that is slower than this part of the velocity scale is at rest.
-constexpr double kAtRest = 1e-12;
 
 }  // namespace
 
 ErrorEstimate::ErrorEstimate(const System& system) : system_(&system) {}
 
 void ErrorEstimate::add(double dt, const Eigen::VectorXd& e_eta, const Eigen::VectorXd& e_v,
-                        const Eigen::VectorXd& v) {
+                        const StageState& end) {
   const auto bodies = system_->bodies().size();
   if (sums_.size() == 0) {
     sums_ = Eigen::VectorXd::Zero(system_->modes());
     largest_.assign(bodies, 0.0);
     velocity_.assign(bodies, 0.0);
+    noise_.assign(bodies, 0.0);
   }
   ++steps_;
   const auto &damping = system_->damping(), &inertia = system_->inertia(),
@@ -37,8 +38,11 @@ void ErrorEstimate::add(double dt, const Eigen::VectorXd& e_eta, const Eigen::Ve
     const int first = system_->mode_offset(static_cast<int>(b));
     const int count = system_->bodies()[b].modes();
     largest_[b] = std::max(largest_[b], sums_.segment(first, count).norm());
-    const double speed = v.segment(first, count).cwiseProduct(inertia.segment(first, count)).norm();
-    velocity_[b] = std::max(velocity_[b], speed);
+    const auto size = [&](const Eigen::VectorXd& x) {
+      return x.segment(first, count).cwiseProduct(inertia.segment(first, count)).norm();
+    };
+    velocity_[b] = std::max(velocity_[b], size(end.v));
+    noise_[b] = std::max(noise_[b], kRoundingNoise * size(end.eta) / dt);
   }
 }
 
@@ -49,7 +53,8 @@ std::vector<BodyError> ErrorEstimate::bodies(const ErrorWeights& weights) const 
     const ModalBody& body = system_->bodies()[b];
     const std::string& name = body.family.empty() ? body.name : body.family;
     found.push_back({name, velocity_[b] / std::sqrt(body.mass), largest_[b] / velocity_[b],
-                     weights.velocity_limit[b] / velocity_[b], body.velocity_scale});
+                     weights.velocity_limit[b] / velocity_[b], body.velocity_scale,
+                     velocity_[b] <= noise_[b]});
   }
   return found;
 }
@@ -58,8 +63,7 @@ std::vector<std::string> accuracy_warnings(const std::vector<BodyError>& bodies,
                                            const Accuracy& accuracy, long long steps) {
   std::vector<std::string> lines;
   const auto inaccurate = [&](const BodyError& body) {
-    return body.step_limit > kWanted && body.estimate > kWanted &&
-           body.speed > kAtRest * accuracy.velocity_scale;
+    return body.step_limit > kWanted && body.estimate > kWanted && !body.at_rest;
   };
   const auto worst = [&](const BodyError& body) {  // of its name, the first of equals
     for (const BodyError& other : bodies)

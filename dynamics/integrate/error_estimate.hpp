@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/integrate/accuracy.hpp"
+#include "dynamics/integrate/stage_state.hpp"
 #include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics {
@@ -17,6 +18,7 @@ struct BodyError {
   double estimate = 0.0;  // of the error of v, relative to `speed`
   double step_limit = 0.0;  // largest error of one step that passes the test, relative to `speed`
   double velocity_scale = 0.0;  // of the body itself [m/s]; 0: that of the run
+  bool at_rest = false;         // no faster than the rounding of its position in a step
 };
 
 /// Sums local errors mode by mode. A mode's local error is a point of its phase plane,
@@ -30,18 +32,18 @@ class ErrorEstimate {
  public:
   explicit ErrorEstimate(const System& system);
 
-  /// An accepted step of length `dt` [s] with local errors e_eta, e_v, that ended with velocities
-  /// v; all modal, N.
+  /// An accepted step of length `dt` [s] with local errors e_eta, e_v, modal, N, that led to `end`.
   void add(double dt, const Eigen::VectorXd& e_eta, const Eigen::VectorXd& e_v,
-           const Eigen::VectorXd& v);
+           const StageState& end);
   /// All bodies that moved; `weights` are those of the error test.
   std::vector<BodyError> bodies(const ErrorWeights& weights) const;
   long long steps() const { return steps_; }
 
  private:
   const System* system_;
-  Eigen::VectorXd sums_;                    // G, N
-  std::vector<double> largest_, velocity_;  // per body: max |G|, max |v|
+  Eigen::VectorXd sums_;  // G, N
+  // Per body: max |G|, max |v|, and the largest rounding of positions over the step.
+  std::vector<double> largest_, velocity_, noise_;
   long long steps_ = 0;
 };
 

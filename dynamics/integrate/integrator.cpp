@@ -162,7 +162,7 @@ void Integrator::take_step(double dt, double time) {
   system_.restart_frames(before_, now_);
   system_.accept_step(time);
   if (observer_ != nullptr) observer_->accept(dt);
-  if (!options_.fixed) estimate_.add(dt, e_eta_, e_v_, now_.v);
+  if (!options_.fixed) estimate_.add(dt, e_eta_, e_v_, now_);
   ++statistics_.accepted;
   statistics_.smallest_step = std::min(statistics_.smallest_step, dt);
   statistics_.largest_step = std::max(statistics_.largest_step, dt);

@@ -122,7 +122,7 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
     const bool slow = size > kSlow * previous;
     // Without a check the matrix of a closed contact would hold the opened one in small steps.
     const bool checked = refresh || (previous < kNone && !slow);
-    if (checked && size <= kConverged && (imbalance <= kConverged || is_rounding(y))) {
+    if (checked && ((size <= kConverged && imbalance <= kConverged) || is_rounding(y))) {
       moved_.setZero(y.size());
       scatter_add(dy_, *rows_, moved_);
       system_.pass_on(moved_, f);

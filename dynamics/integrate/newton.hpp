@@ -20,10 +20,10 @@ namespace clatter::dynamics {
 /// below `kConverged` (5 %) of what the error test allows, in displacement and, over kappa, in
 /// velocity. dy alone says nothing where J is kept from a stiff contact that has opened (hard case
 /// N1), so a matrix that was not formed in this stage must have contracted in it. Where y cannot
-/// be given more finely, dy at rounding level suffices. The forces passed on are f + (df/dy) dy:
-/// with them P eta = y + dy exactly, which keeps stiff contacts at rest. Their difference to f
-/// changes P eta by less than |r| + |dy|.
-/// An iteration that does not converge is a rejected step, never an accepted one.
+/// be given more finely, dy at rounding level suffices, however small the limits are. The forces
+/// passed on are f + (df/dy) dy: with them P eta = y + dy exactly, which keeps stiff contacts at
+/// rest. Their difference to f changes P eta by less than |r| + |dy|. An iteration that does not
+/// converge is a rejected step, never an accepted one.
 class StageNewton {
  public:
   enum class Outcome { kConverged, kDiverged, kRefused };

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/integrate/rounding_floor.hpp"
 
-#include <limits>
-
 namespace clatter::dynamics {
 
 using Eigen::VectorXd;
 
 namespace {
-
-constexpr double kNoise = 16.0 * std::numeric_limits<double>::epsilon();
 
 /// Writes the entries of `error` above those of `noise` to `kept`, 0 for the others.
 template <class Noise>
@@ -31,10 +27,10 @@ RoundingFloor::RoundingFloor(const System& system)
 void RoundingFloor::apply(const StageState& begin, const StageState& end, const VectorXd& e_eta,
                           const VectorXd& e_v, const VectorXd& e_y) {
   const double dt = end.time - begin.time;
-  const auto eta = kNoise * terms(begin.eta, end.eta, begin.v, end.v, dt);
+  const auto eta = kRoundingNoise * terms(begin.eta, end.eta, begin.v, end.v, dt);
   keep(e_eta, eta, eta_);
-  keep(e_v, eta / dt + kNoise * dt * begin.a.array().abs(), v_);
-  keep(e_y, kNoise * terms(begin.y, end.y, begin.v_y, end.v_y, dt), y_);
+  keep(e_v, eta / dt + kRoundingNoise * dt * begin.a.array().abs(), v_);
+  keep(e_y, kRoundingNoise * terms(begin.y, end.y, begin.v_y, end.v_y, dt), y_);
 }
 
 }  // namespace clatter::dynamics

@@ -2,11 +2,15 @@
 #pragma once
 // Local errors without what rounding makes.
 #include <Eigen/Core>
+#include <limits>
 
 #include "dynamics/integrate/stage_state.hpp"
 #include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics {
+
+/// Rounding of a sum in a step, relative to its terms.
+constexpr double kRoundingNoise = 16.0 * std::numeric_limits<double>::epsilon();
 
 /// The error estimate of a step is a difference of sums: an entry below the rounding of its terms
 /// is no error, however small the limit (hard case S10).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hard cases N1 and N2: what the iteration of a stage may accept.
+// Hard cases N1, N2 and N14: what the iteration of a stage may accept.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -189,6 +189,36 @@ TEST(HardN2_NotANumber, StopsAForceThatAFiniteOneFollows) {
   const std::string said = failure(system, false);
   EXPECT_NE(said.find("the forces are not finite"), std::string::npos) << said;
   EXPECT_NE(said.find("under broken"), std::string::npos) << said;
+}
+
+/// A mass of 1 kg one metre from the origin that rests on a wall of 1e8 N/m under its weight.
+struct FarFromTheOrigin {
+  System system;
+  Eigen::VectorXd rest;
+
+  FarFromTheOrigin() {
+    const Opening opening{.mass = 1.0, .stiffness = 1e8, .gap = 1.0};
+    system.coordinate(system.add_body(point_mass(opening.mass)), 0);
+    system.add_element(opening.wall());
+    push(system, [](double) { return kPush; });
+    rest = opening.rest();
+  }
+};
+
+TEST(HardN14_LimitsBelowRounding, ABodyAtRestStartsAndStaysWhateverTheLimits) {
+  // A position of 1 m is given to 1e-16 m: over the first stage of 1e-7 s that is 1e-9 m/s.
+  for (double scale = 1.0; scale > 1e-12; scale *= 0.01) {
+    FarFromTheOrigin body;
+    StepOptions options;
+    options.accuracy.velocity_scale = scale;
+    Dirk method(body.system, options);
+    ASSERT_NO_THROW(method.start(0.0, body.rest, vector(0.0))) << scale;
+    while (method.state().time < 1e-3) method.step(1e-3);
+    EXPECT_LT(std::abs(method.state().v_y(0)), 1e-7) << scale;
+    const std::vector<BodyError> errors = method.estimate().bodies(method.weights());
+    EXPECT_TRUE(accuracy_warnings(errors, options.accuracy, method.estimate().steps()).empty())
+        << scale;
+  }
 }
 
 }  // namespace
