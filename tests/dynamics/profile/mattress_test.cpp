@@ -79,6 +79,33 @@ TEST(Mattress, OfABushInTheSeatIsTheSlowSum) {
   }
 }
 
+/// Eqs. (4) to (6) of the paper for a circle in a hollow circle: kappa b times the integral of
+/// depth - z(x), z the sum of the heights along the one direction of contact.
+double paper_force(const MattressLaw& law, double bush, double seat, double depth) {
+  constexpr int kSteps = 400000;
+  const double width = 0.8 * bush;  // the contact is narrower
+  const auto height = [](double r, double x) { return r - std::sqrt(r * r - x * x); };
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double x = width * (2.0 * (i + 0.5) / kSteps - 1.0);
+    sum += std::max(0.0, depth - height(bush, x) + height(seat, x)) * 2.0 * width / kSteps;
+  }
+  return law.stiffness * law.width * sum;
+}
+
+TEST(Mattress, OfABushInTheSeatIsThatOfThePaperLessWhatPushesSideways) {
+  constexpr double kSeat = 2.58399e-3, kBushRadius = 2.5e-3;
+  const Profile seat({ArcSegment{{0.0, 0.0}, kSeat, -0.5 * kPi + 0.7, -1.4}});  // bottom below
+  const MattressContact contact(seat, LinkOutline::circle(0.0, kBushRadius), elastic(bush_law()));
+  const double expected[3][3] = {
+      {2e-6, 33.6607, 33.4880}, {5e-6, 131.0106, 129.3795}, {8e-6, 261.1956, 256.1401}};
+  for (const auto& [depth, paper, here] : expected) {
+    EXPECT_NEAR(paper_force(contact.law(), kBushRadius, kSeat, depth), paper, 1e-4);
+    const double middle = -(kSeat - kBushRadius) - depth;
+    EXPECT_NEAR(force_at(contact, {0.0, middle, 0.0}).wrench.y(), here, 1e-4);
+  }
+}
+
 TEST(Mattress, OfAPlateOnAGuideIsTheSlowSum) {
   const Profile profile = guide();
   const MattressContact contact(profile, plate(), elastic(plate_law()));
