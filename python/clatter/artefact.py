@@ -10,6 +10,11 @@ import numpy as np
 from .errors import BadArtefact, CannotWrite
 
 
+def stem(path) -> str:
+    """"v1.5" of "v1.5.run.h5" or "v1.5.run.toml": the name without its kind and format."""
+    return pathlib.Path(path).name.rsplit(".", 2)[0]
+
+
 def text(value):
     """An attribute or element that may be bytes as str."""
     return value.decode() if isinstance(value, bytes) else str(value)
@@ -89,6 +94,24 @@ def certificate(file):
     return {name: value for name, value in file["certificate"].attrs.items()} if "certificate" in file else {}
 
 
+def judgements(file):
+    """{name: (good, refused)}: the limits of the judged numbers of the certificate (docs/certificates.md); none of older files."""
+    if "judged/name" not in file:
+        return {}
+    return {text(name): (float(good), float(refused))
+            for name, good, refused in zip(*(file[f"judged/{one}"][()] for one in ("name", "good", "refused")))}
+
+
+def verdict(value, limits):
+    """"good", "warned" or "refused". A number is good up to limits[0] and refused above limits[1], or, where limits[1] is the smaller
+    one, good from limits[0] on and refused below limits[1]; NaN is refused."""
+    good, refused = limits
+    sign = -1.0 if refused < good else 1.0
+    if sign * value <= sign * good:
+        return "good"
+    return "warned" if sign * value <= sign * refused else "refused"
+
+
 def timing(file):
     """Rows (step, seconds, peak GiB so far) of the stage that wrote the file."""
     if "timing/step" not in file:
@@ -141,6 +164,11 @@ class Artefact:
     def certificate(self) -> dict:
         """{name: number}: what was proved; units and meanings are in docs/formats.md."""
         return {name: float(value) for name, value in certificate(self.file).items()}
+
+    @property
+    def verdicts(self) -> dict:
+        """{name: "good", "warned" or "refused"} of the judged numbers of the certificate; docs/certificates.md has the limits."""
+        return {name: verdict(self.certificate[name], limits) for name, limits in judgements(self.file).items()}
 
     @property
     def configuration(self) -> str:

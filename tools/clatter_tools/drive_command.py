@@ -5,7 +5,7 @@ import pathlib
 import numpy as np
 
 from clatter import chains
-from clatter.artefact import BadArtefact, open_artefact, schema_of, text
+from clatter.artefact import BadArtefact, open_artefact, schema_of, stem, text
 from . import orders
 
 FAINT = 1e-3  # of all orders together: of less no speed is named
@@ -49,7 +49,7 @@ def write_pictures(options):
         kinds += ["valves"] if valves.rows(run) else []
     if others:
         print(f"these are of chain {chain.name}; the run also has {', '.join(others)}")
-    folder = pathlib.Path(options.output or pathlib.Path(options.file).name.split(".")[0])
+    folder = pathlib.Path(options.output or stem(options.file))
     for kind in kinds:
         path = folder / f"{kind}.{options.format}"
         plots.draw(kind, [options.file], path)

@@ -4,6 +4,7 @@ import pathlib
 import sys
 
 from clatter import artefact, chains
+from clatter.artefact import stem
 from . import drive_findings, findings, slap
 
 STAGES = ["mesh", "fe", "modes", "rom", "sound", "run", "field"]
@@ -51,10 +52,6 @@ def print_table(title, head, rows):
     for row in [head, *rows]:
         print("  " + "  ".join(str(cell).ljust(w) if i == 0 else str(cell).rjust(w)
                                for i, (cell, w) in enumerate(zip(row, widths))))
-
-
-def stem(path):
-    return path.name.split(".")[0]
 
 
 def print_models(fe_files, rom_files):

@@ -8,7 +8,7 @@ import pathlib
 import re
 import tomllib
 
-from clatter.artefact import BadArtefact, CannotWrite
+from clatter.artefact import BadArtefact, CannotWrite, stem
 from . import parameters
 from .keys.schema_line import schema_line
 from .whole_file import whole_file
@@ -157,7 +157,7 @@ def write_sweep(options):
     base = pathlib.Path(options.base)
     if not base.is_file():
         raise BadArtefact(f"{base}: no such file, expected a scene, name.run.toml")
-    folder = pathlib.Path(options.output or base.name.split(".")[0] + "_sweep")
+    folder = pathlib.Path(options.output or stem(base) + "_sweep")
     try:
         if options.parameters:
             count = write_parameters(base, folder, options.parameters, options.keys, options.field)

@@ -129,7 +129,7 @@ def strongest_instant(field):
     best = int(np.argmax([mean_square(field, velocity) for velocity in moved]))
     time = f"{dataset(field, 'frames/time')[best] * 1e3:.2f} ms"
     when = f"{time} after firing TDC" if "frames/crank_angle_deg" in field else f"After {time}"
-    return f"{when},\nthe instant of largest motion", moved[best]
+    return f"{when},\nthe strongest of {len(names)} frames", moved[best]
 
 
 def strongest_line(field):

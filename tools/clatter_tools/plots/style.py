@@ -8,7 +8,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import matplotlib.ticker  # noqa: E402
 
-from clatter.artefact import BadArtefact, open_artefact, text  # noqa: E402
+from clatter.artefact import BadArtefact, open_artefact, stem, text  # noqa: E402
 from ..whole_file import whole_file  # noqa: E402
 
 # Colour-blind safe (Okabe and Ito 2008); a run keeps its colour in all pictures of one call.
@@ -63,7 +63,7 @@ def label(file, cylinder=""):
         run = own.parent / pathlib.Path(text(name)).name
         if run.name.endswith(".run.h5") and run.exists():
             return label(open_artefact(run, "run"))
-    return own.name.split(".")[0].replace("_", " ")
+    return stem(own).replace("_", " ")
 
 
 def legend(axis, columns=2):

@@ -5,8 +5,9 @@ import pathlib
 import re
 
 from clatter import artefact
+from clatter.artefact import stem
 from ..plots import style
-from ..report import artefacts_of, stem
+from ..report import artefacts_of
 
 MANY = 7  # runs, of which each has a colour of its own; of more only some are shown in full
 

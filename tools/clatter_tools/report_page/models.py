@@ -4,8 +4,7 @@ import re
 
 import numpy as np
 
-from clatter.artefact import BadArtefact
-from ..report import stem
+from clatter.artefact import BadArtefact, stem
 
 ROW = re.compile(r"^\s*(\d+)\s+([\d.eE+-]+)\s+([\d.eE+-]+)\s+([\d.eE+-]+)\s+([\d.eE+-]+)\s*$", re.M)
 

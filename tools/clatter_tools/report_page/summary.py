@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The first section: what was found, in sentences and in the tables of `clatter report`."""
 from clatter import artefact, chains, fields
-from .. import drive_findings, findings, report, slap
+from .. import drive_findings, findings, slap
 from .certificates import GOOD
 
 WORRIES = 12  # that are listed
@@ -69,10 +69,10 @@ def tables(folder):
             sensors.append([one.label, *findings.field_row(one.field)])
     for path in folder.files["fe"]:
         with artefact.open_artefact(path, "fe") as file:
-            parts.append([report.stem(path), findings.fe_size(file), findings.reduced_size(path), *findings.mass(file)])
+            parts.append([artefact.stem(path), findings.fe_size(file), findings.reduced_size(path), *findings.mass(file)])
     for path in folder.files["mesh"]:
         with artefact.open_artefact(path, "mesh") as file:
-            cells += [[report.stem(path), *row] for row in findings.mesh_quality(file)]
+            cells += [[artefact.stem(path), *row] for row in findings.mesh_quality(file)]
     found = [("Runs, last cycle", ["run", *findings.RUN_HEAD], rows),
              (f"Accelerations above {slap.FROM_HZ:g} Hz around firing TDC, and power over the cycle", ["run", *findings.FIELD_HEAD], sensors),
              ("Parts", ["part", "FE DoF", "reduced DoF", "mass [kg]"], parts),

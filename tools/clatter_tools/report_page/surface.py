@@ -4,7 +4,7 @@ import pathlib
 
 import numpy as np
 
-from clatter.artefact import dataset, open_artefact, text
+from clatter.artefact import dataset, open_artefact, stem, text
 from clatter.rom import Rom
 from . import shapes, skin
 from .folder import made_with
@@ -23,7 +23,7 @@ def collect(folder, pack):
                 continue
             runs = [one for one in folder.with_field() if path.resolve() in map(pathlib.Path.resolve, made_with(one.field))
                     and len(one.field["skin/nodes"]) == len(rom["skin/nodes"]) and motion(one) is not None]
-            parts.append(reduced_part(pack, path.name.split(".")[0], rom, runs))
+            parts.append(reduced_part(pack, stem(path), rom, runs))
             shown.update(one.number for one in runs)
     parts += [field_part(pack, one) for one in folder.with_field() if one.number not in shown and "skin" in one.field]
     parts.sort(key=lambda part: not part["runs"])
