@@ -73,6 +73,12 @@ class HardN11Terminated(stages.PipelineTest):
                     expect_at_least(self, f"samples that {number.name} keeps", len(run["output/time"]), 1)
                 interrupted.unlink()
 
+    def test_a_killed_run_without_a_checkpoint_starts_again_and_says_so(self):
+        (self.folder / "step.run.h5.part").write_bytes(b"of a killed run")
+        done = stages.run_stage("dynamics", "step.run.toml", "-o", "step.run.h5", "--resume", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("step.run.h5: no checkpoint, which are written between cycles: the interrupted run starts again", done.stderr)
+
     def test_both_signals_before_the_first_step_end_it_with_the_same_code(self):
         # Before, the signal killed the program until its first step.
         self.edit("step.run.toml", "end_s = 0.06", "end_s = 600.0")
