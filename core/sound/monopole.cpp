@@ -9,7 +9,7 @@
 
 namespace clatter::sound {
 
-Eigen::Vector3d inner_point(const Surface& surface) {
+std::optional<Eigen::Vector3d> inner_point(const Surface& surface, double least) {
   constexpr int kSteps = 8;
   const Eigen::Vector3d low = surface.nodes.colwise().minCoeff();
   const Eigen::Vector3d size = surface.nodes.colwise().maxCoeff().transpose() - low;
@@ -25,7 +25,7 @@ Eigen::Vector3d inner_point(const Surface& surface) {
         depth = distance;
         best = at;
       }
-  if (!(depth > 0.0)) throw InputError("surface: found no inner point, expected a thicker body");
+  if (!(depth > 0.0) || depth < least) return std::nullopt;
   return best;
 }
 

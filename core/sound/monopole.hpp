@@ -3,14 +3,16 @@
 // A point source inside a body: its normal velocity on the surface radiates its known power, which
 // checks normals, areas, phases and the mesh.
 #include <Eigen/Core>
+#include <optional>
 
 #include "core/sound/radiation.hpp"
 
 namespace clatter::sound {
 
-/// A position inside the surface that is far from it, of a grid over its bounding box.
-/// @throws InputError when no point of the grid is inside
-Eigen::Vector3d inner_point(const Surface& surface);
+/// A position inside the surface, of a grid over its bounding box the one that is farthest from it.
+/// None when each is nearer to it than `least` [m]: the velocity that a source has on a face grows
+/// with the inverse square of its distance, and larger faces do not resolve it.
+std::optional<Eigen::Vector3d> inner_point(const Surface& surface, double least);
 
 /// The source p = exp(-i k r) / r [Pa], with its image at the ground plane.
 struct MonopoleMotion {

@@ -17,38 +17,14 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using WrapMesh = CGAL::Surface_mesh<Point>;
 
-WrapMesh alpha_wrap(const FlatTriangles& body, double opening) {
+std::vector<Point> points_of(const RowMatrix& nodes) {
   std::vector<Point> points;
-  for (Eigen::Index n = 0; n < body.nodes.rows(); ++n)
-    points.emplace_back(body.nodes(n, 0), body.nodes(n, 1), body.nodes(n, 2));
-  std::vector<std::array<std::size_t, 3>> faces;
-  for (Eigen::Index f = 0; f < body.triangles.rows(); ++f)
-    faces.push_back({static_cast<std::size_t>(body.triangles(f, 0)),
-                     static_cast<std::size_t>(body.triangles(f, 1)),
-                     static_cast<std::size_t>(body.triangles(f, 2))});
-  WrapMesh mesh;
-  CGAL::alpha_wrap_3(points, faces, 0.5 * opening, opening / 60.0, mesh);
-  return mesh;
+  for (Eigen::Index n = 0; n < nodes.rows(); ++n)
+    points.emplace_back(nodes(n, 0), nodes(n, 1), nodes(n, 2));
+  return points;
 }
 
-void make_regular(WrapMesh& mesh, double edge) {
-  namespace processing = CGAL::Polygon_mesh_processing;
-  constexpr double kSharpDegrees = 45.0;
-  constexpr unsigned kIterations = 5, kRelaxations = 3;
-  const auto sharp = mesh.add_property_map<WrapMesh::Edge_index, bool>("e:sharp", false).first;
-  processing::detect_sharp_edges(mesh, kSharpDegrees, sharp);
-  processing::isotropic_remeshing(mesh.faces(), edge, mesh,
-                                  CGAL::parameters::number_of_iterations(kIterations)
-                                      .number_of_relaxation_steps(kRelaxations)
-                                      .edge_is_constrained_map(sharp));
-  mesh.collect_garbage();
-}
-
-}  // namespace
-
-FlatTriangles wrapped(const FlatTriangles& body, double opening, double edge) {
-  WrapMesh mesh = alpha_wrap(body, opening);
-  make_regular(mesh, edge);
+FlatTriangles triangles_of(const WrapMesh& mesh) {
   FlatTriangles out{RowMatrix(mesh.number_of_vertices(), 3),
                     IndexMatrix(mesh.number_of_faces(), 3)};
   for (const auto vertex : mesh.vertices()) {
@@ -63,6 +39,44 @@ FlatTriangles wrapped(const FlatTriangles& body, double opening, double edge) {
     ++row;
   }
   return out;
+}
+
+WrapMesh mesh_of(const FlatTriangles& surface) {
+  WrapMesh mesh;
+  std::vector<WrapMesh::Vertex_index> vertices;
+  for (const Point& point : points_of(surface.nodes)) vertices.push_back(mesh.add_vertex(point));
+  for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
+    mesh.add_face(vertices[surface.triangles(f, 0)], vertices[surface.triangles(f, 1)],
+                  vertices[surface.triangles(f, 2)]);
+  return mesh;
+}
+
+}  // namespace
+
+FlatTriangles alpha_wrap(const FlatTriangles& body, double opening, double offset) {
+  std::vector<std::array<std::size_t, 3>> faces;
+  for (Eigen::Index f = 0; f < body.triangles.rows(); ++f)
+    faces.push_back({static_cast<std::size_t>(body.triangles(f, 0)),
+                     static_cast<std::size_t>(body.triangles(f, 1)),
+                     static_cast<std::size_t>(body.triangles(f, 2))});
+  WrapMesh mesh;
+  CGAL::alpha_wrap_3(points_of(body.nodes), faces, 0.5 * opening, offset, mesh);
+  return triangles_of(mesh);
+}
+
+FlatTriangles remeshed(const FlatTriangles& surface, double edge) {
+  namespace processing = CGAL::Polygon_mesh_processing;
+  constexpr double kSharpDegrees = 45.0;
+  constexpr unsigned kIterations = 5, kRelaxations = 3;
+  WrapMesh mesh = mesh_of(surface);
+  const auto sharp = mesh.add_property_map<WrapMesh::Edge_index, bool>("e:sharp", false).first;
+  processing::detect_sharp_edges(mesh, kSharpDegrees, sharp);
+  processing::isotropic_remeshing(mesh.faces(), edge, mesh,
+                                  CGAL::parameters::number_of_iterations(kIterations)
+                                      .number_of_relaxation_steps(kRelaxations)
+                                      .edge_is_constrained_map(sharp));
+  mesh.collect_garbage();
+  return triangles_of(mesh);
 }
 
 }  // namespace clatter::recover

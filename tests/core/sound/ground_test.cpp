@@ -38,7 +38,8 @@ TEST(Ground, MonopoleAboveAPlaneSendsThePowerOfSourceAndImage) {
 
 TEST(Ground, CheckOfABodyByAMonopoleFindsItsPower) {
   const Surface surface = box({0.5, 0.3, 0.4}, 0.1);
-  const Eigen::Vector3d inside = inner_point(surface);
+  const Eigen::Vector3d inside = inner_point(surface, 0.1).value();
+  EXPECT_FALSE(inner_point(surface, 0.16).has_value());
   EXPECT_NEAR(distance_to(surface, inside), 0.15, 1e-9);
   for (const Space& space : {kAir, kGround}) {
     const MonopoleMotion check = monopole(surface, space, frequency_of(7.0), inside);
