@@ -18,8 +18,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr const char* kRequest = "request/text";
-// The same steps give identical values; a rotation among equal frequencies leaves only rounding.
-constexpr double kLimit = 1e-7;
 
 /// Rows of two skins at the same position; positions that occur twice in a skin are omitted.
 std::vector<std::pair<Index, Index>> common_points(const rom::Skin& a, const rom::Skin& b) {
@@ -159,12 +157,14 @@ rom::ReducedModel add_rows(const fe::FeModel& model, const rom::ReducedModel& st
   rom::ReducedModel fresh = condense(model, options, clock);
   const double error = align_basis(fresh, stored);
   clock.lap("comparison with the stored basis");
-  if (!(error <= kLimit))
+  // The same steps give identical values; a rotation among equal frequencies leaves only rounding.
+  const double limit = judgement_of<rom::ReducedCertificate>("rows_added_error").refused;
+  if (!(error <= limit))
     throw NumericsError(
         fmt::format("{}: the basis solved for again differs by {:.1e} from the stored one, "
                     "expected at most {:.0e}: repeat with the threads and the BLAS kernel of that "
                     "run, or condense the part again with these rows",
-                    stored.name, error, kLimit));
+                    stored.name, error, limit));
   rom::ReducedModel out = stored;
   out.skin = std::move(fresh.skin);
   out.combined = std::move(fresh.combined);

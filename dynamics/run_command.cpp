@@ -57,6 +57,10 @@ RunControl control_of(const RunArguments& a, const Scene& scene) {
   } else if (a.resume && std::filesystem::exists(checkpoint)) {
     say(fmt::format("{} belongs to another scene, other inputs or another program: starting again",
                     checkpoint.string()));
+  } else if (a.resume && std::filesystem::exists(a.output.string() + ".part")) {
+    say(fmt::format("{}: no checkpoint, which are written between cycles: the interrupted run "
+                    "starts again",
+                    a.output.string()));
   }
   return control;
 }
@@ -93,6 +97,8 @@ void run_scene(const RunArguments& a, const CommonOptions& common) {
     print_result(line);
   say(fmt::format("{} written", a.output.string()));
   print_json_result(a.output, json_of(result), clock, common);
+  // Hours of work are kept, whatever they are worth.
+  require_trust(a.output.string(), judged_numbers(run_certificate(result)));
 }
 
 }  // namespace

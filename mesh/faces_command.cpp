@@ -61,8 +61,8 @@ void show_faces(const FacesArguments& a, const CommonOptions& common) {
   for (const std::string& line : table_of(found.list)) print_result(line);
   if (!common.json) return;
   JsonMembers members = json_of(found.list);
-  members.emplace_back("element_size_mm", json_number(default_element_size(found.list) *
-                                                      found.metres / kMilli));
+  members.emplace_back("element_size_mm",
+                       json_number(default_element_size(found.list) * found.metres / kMilli));
   print_json(members);
 }
 

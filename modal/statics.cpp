@@ -9,19 +9,21 @@
 #include <numeric>
 
 #include "core/base/error.hpp"
-#include "core/base/log.hpp"
 #include "core/fe/free_motions.hpp"
 #include "core/modes/factor_failure.hpp"
+#include "modal/certificates.hpp"
 #include "modal/refined_solve.hpp"
 
 namespace clatter::modal {
 namespace {
 
-constexpr double kBackward = 1e-12;  // of each row; refinement leaves 1e-16 or so
-constexpr double kBalance = 1e-8;    // of forces; rounding leaves 1e-12 or so
+// By the judgements of the certificate: backward errors of each row, of which refinement leaves
+// 1e-16 or so, sums of forces, of which rounding leaves 1e-12 or so, and displacements without a
+// correct digit.
+const double kBackward = judgement_of<StaticCertificate>("backward_error_max").refused;
+const double kBalance = judgement_of<StaticCertificate>("balance_max").good;
+const double kForward = judgement_of<StaticCertificate>("forward_error_max").refused;
 constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
-constexpr double kForward = 1.0;  // estimated relative error of the displacements: no correct digit
-constexpr double kDoubtful = 1e-3;     // the same, worth a warning
 constexpr double kHeldMotion = 1e-10;  // of the magnitudes in a row of K R; rounding is 1e-13
 
 using Factors = std::map<std::string, double>;
@@ -202,11 +204,6 @@ void refuse_inexact(const fe::FeModel& model, const StaticCase& found) {
                     "entries of K, expected at most {:g}: use thicker walls, smaller jumps of "
                     "stiffness, or stiffer supports",
                     model.name, found.name, found.forward_error, kForward));
-  if (found.forward_error > kDoubtful)
-    warn(fmt::format(
-        "{}: {}: rounding of the entries of K may move displacements by up to {:.1g} of "
-        "the largest: the part is very thin, or its stiffness jumps",
-        model.name, found.name, found.forward_error));
 }
 
 /// Supports hold every DoF: displacements are the prescribed ones, and the reactions are K_ss s -

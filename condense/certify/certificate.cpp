@@ -15,8 +15,8 @@
 namespace clatter::condense {
 namespace {
 
-constexpr double kMassLimit = 1e-9;    // hard case B5
-constexpr double kRigidLimit = 1e-10;  // hard case B4
+/// Above which a number of the certificate is refused (hard cases B4 and B5).
+double limit_of(const char* name) { return judgement_of<rom::ReducedCertificate>(name).refused; }
 
 /// R^T M R of the full model for rigid motions about `point`.
 Eigen::MatrixXd rigid_mass(const PartitionedModel& part, const Eigen::Vector3d& point) {
@@ -157,25 +157,27 @@ void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const Cra
     certify_spectrum(reduced, motions);
   }
   certify_modes(reduced, source);
-  if (free_body && !(*out.mass_error <= kMassLimit)) {
+  if (const double limit = limit_of("mass_error"); free_body && !(*out.mass_error <= limit)) {
     throw NumericsError(
         fmt::format("reduced model: mass properties differ by {:.1e} from the full "
                     "model's, expected at most {:.0e}",
-                    *out.mass_error, kMassLimit));
+                    *out.mass_error, limit));
   }
-  if (!reduced.inertia.empty() && !(*out.inertia_invariants_error <= kMassLimit)) {
+  if (const double limit = limit_of("inertia_invariants_error");
+      !reduced.inertia.empty() && !(*out.inertia_invariants_error <= limit)) {
     throw NumericsError(fmt::format(
         "reduced model: inertia invariants differ by {:.1e} from those of M_rr and the rigid "
         "motions, expected at most {:.0e}",
-        *out.inertia_invariants_error, kMassLimit));
+        *out.inertia_invariants_error, limit));
   }
-  if (!(*out.rigid_stiffness_residue <= kRigidLimit) ||
+  const double stiffness = limit_of("rigid_stiffness_residue");
+  if (!(*out.rigid_stiffness_residue <= stiffness) ||
       (spectrum && out.rigid_modes != static_cast<double>(motions.cols()))) {
     throw NumericsError(fmt::format(
         "reduced model: {} rigid modes with stiffness residue {:.1e}, expected {} and at most "
         "{:.0e}",
         spectrum ? fmt::format("{}", *out.rigid_modes) : "uncounted", *out.rigid_stiffness_residue,
-        motions.cols(), kRigidLimit));
+        motions.cols(), stiffness));
   }
 }
 

@@ -50,6 +50,20 @@ void write_certificate_numbers(H5File& file, const CertificateNumbers& numbers) 
   for (const auto& [name, value] : numbers) file.set("certificate", name, value);
 }
 
+void write_judgements(H5File& file, const std::vector<Judged>& numbers) {
+  if (numbers.empty()) return;
+  std::vector<std::string> names;
+  std::vector<double> good, refused;
+  for (const Judged& number : numbers) {
+    names.push_back(number.name);
+    good.push_back(number.judgement.good);
+    refused.push_back(number.judgement.refused);
+  }
+  file.write("judged/name", names);
+  file.write("judged/good", good);
+  file.write("judged/refused", refused);
+}
+
 CertificateNumbers read_certificate_numbers(const H5File& file) {
   CertificateNumbers numbers;
   if (!file.has("certificate")) return numbers;
@@ -65,6 +79,11 @@ std::string certificate_row(const std::string& name, const std::string& unit,
   for (const char letter : meaning)
     text += letter == '|' ? std::string("\\|") : std::string{letter};
   return fmt::format("| `{}` | {}{}| {} |\n", name, unit, unit.empty() ? "" : " ", text);
+}
+
+std::string judgement_row(const std::string& name, const Judgement& judgement) {
+  return fmt::format("| `{}` | {} | {} | {} |\n", name, judgement.good_text(),
+                     judgement.refused_text(), judgement.why);
 }
 
 }  // namespace clatter

@@ -10,11 +10,14 @@
 //     bool operator==(const SkinCertificate&) const = default;
 //   };
 //
-// The numbers are attributes of group `certificate`; docs/formats.md has the table of each list.
+// The numbers are attributes of group `certificate`; docs/formats.md has the table of each list,
+// docs/certificates.md that of the judgements.
 #include <concepts>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -22,6 +25,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/h5_file.hpp"
+#include "core/base/judgement.hpp"
 
 namespace clatter {
 
@@ -38,6 +42,7 @@ struct CertificateField {
   std::variant<double C::*, std::optional<double> C::*, CertificateNumbers C::*> member;
   const char* unit;     // "" for counts, ratios, and 0 or 1
   const char* meaning;  // one line
+  Judgement judgement{};
 
   /// Calls `use` with the member of `certificate`.
   template <class Self, class Use>
@@ -70,6 +75,9 @@ void write_certificate_numbers(H5File& file, const CertificateNumbers& numbers);
 /// All attributes of the group; none when it is absent. InputError for one that is no number.
 CertificateNumbers read_certificate_numbers(const H5File& file);
 
+/// Writes group `judged`: the names of the judged numbers and their limits.
+void write_judgements(H5File& file, const std::vector<Judged>& numbers);
+
 /// A row of the table in docs/formats.md, with | escaped; "" for the family `<other>`.
 std::string certificate_row(const std::string& name, const std::string& unit,
                             const std::string& meaning);
@@ -83,10 +91,40 @@ CertificateNumbers certificate_numbers(const C& certificate) {
   return numbers;
 }
 
-/// Writes the numbers that are present.
+/// The numbers that are present and have a judgement.
+template <Certified C>
+std::vector<Judged> judged_numbers(const C& certificate) {
+  std::vector<Judged> all;
+  for (const CertificateField<C>& field : C::fields()) {
+    if (!field.judgement.judges()) continue;
+    CertificateNumbers numbers;
+    field.visit(certificate, [&](const auto& value) { put_field(field.name, value, numbers); });
+    for (const auto& [name, value] : numbers) all.push_back({name, value, field.judgement});
+  }
+  return all;
+}
+
+/// The judgement of the field of this name.
+template <Certified C>
+Judgement judgement_of(std::string_view name) {
+  for (const CertificateField<C>& field : C::fields())
+    if (field.name == name) return field.judgement;
+  throw std::logic_error("no certificate has the field " + std::string(name));
+}
+
+/// Writes the numbers that are present and their judgements.
+template <Certified C>
+void store_certificate(H5File& file, const C& certificate) {
+  write_certificate_numbers(file, certificate_numbers(certificate));
+  write_judgements(file, judged_numbers(certificate));
+}
+
+/// The same, with warnings of the numbers that are not good.
+/// @throws NumericsError for those that are refused
 template <Certified C>
 void write_certificate(H5File& file, const C& certificate) {
-  write_certificate_numbers(file, certificate_numbers(certificate));
+  require_trust(file.path().string(), judged_numbers(certificate));
+  store_certificate(file, certificate);
 }
 
 /// The certificate of a file. Names that no field has are ignored; optional numbers that the file
@@ -100,6 +138,18 @@ C read_certificate(const H5File& file) {
       field.visit(certificate, [&](auto& value) { take_field(field.name, value, numbers); });
   });
   return certificate;
+}
+
+/// A row of the table in docs/certificates.md.
+std::string judgement_row(const std::string& name, const Judgement& judgement);
+
+/// The judgements of the fields, as in docs/certificates.md.
+template <Certified C>
+std::string judgement_table() {
+  std::string table = "| figure | good | refused | else |\n|---|---|---|---|\n";
+  for (const CertificateField<C>& field : C::fields())
+    if (field.judgement.judges()) table += judgement_row(field.name, field.judgement);
+  return table;
 }
 
 /// The table of the fields, as in docs/formats.md.

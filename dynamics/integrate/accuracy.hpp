@@ -57,6 +57,13 @@ struct ErrorWeights {
   Eigen::VectorXd modal_displacement, modal_velocity;  // per modal coordinate
   std::vector<double> velocity_limit;  // per body: of |e_v|, the square root of twice an energy
 
+  /// Of all bodies at their limits of velocity [J].
+  double least_energy() const {
+    double sum = 0.0;
+    for (const double limit : velocity_limit) sum += 0.5 * limit * limit;
+    return sum;
+  }
+
   /// Largest change of y in a stage over its limits: as a displacement and, over kappa, as a
   /// velocity of the modes with inertia. `dy`: of the y in `rows`; `at` is a y.
   LargestEntry largest_change(const Eigen::VectorXd& dy, const std::vector<int>& rows,

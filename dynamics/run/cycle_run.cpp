@@ -155,7 +155,8 @@ double CycleRun::change() const {
 }
 
 void CycleRun::report(RunResult& result) const {
-  result.energy_residue = energy_.residue();
+  result.energy_residue = energy_.residue(method_->weights().least_energy());
+  result.energy_imbalance = energy_.imbalance();
   result.oil.reset();
   result.energy_exchanged = energy_.exchanged();
   result.periodicity = before_ ? before_->difference() : CycleDifference{};

@@ -147,8 +147,8 @@ double EnergyBalance::exchanged() const {
   return largest;
 }
 
-double EnergyBalance::residue() const {
-  const double all = exchanged();
+double EnergyBalance::residue(double least) const {
+  const double all = std::max(exchanged(), least);
   return all > 0.0 ? std::abs(imbalance()) / all : 0.0;
 }
 

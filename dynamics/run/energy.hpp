@@ -45,11 +45,13 @@ class EnergyBalance : public StageObserver {
   /// them.
   std::vector<double> save() const;
   void restore(const std::vector<double>& state, double time);
-  /// |stored(now) - stored(start) - input + lost| / exchanged() since reset; 0 when nothing moved.
-  double residue() const;
+  /// |imbalance()| over exchanged(), at least over `least` [J]: of what hardly moves the imbalance
+  /// is rounding of what little is exchanged. 0 when nothing moved.
+  double residue(double least = 0.0) const;
   /// The sum of |work| of all terms, at least the largest change of a stored energy: without losses
   /// and loads energy only passes between bodies and elements (hard case S1) [J].
   double exchanged() const;
+  /// stored(now) - stored(start) - input + lost, since reset [J].
   double imbalance() const;
 
  private:

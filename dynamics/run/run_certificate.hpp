@@ -26,6 +26,7 @@ struct CycleDifference {
 /// periodicity_tilt, those of named cylinders and `periodicity_<body>`.
 struct RunCertificate : CycleDifference {
   double energy_residue = 0.0, energy_exchanged = 0.0;
+  std::optional<double> energy_imbalance{};  // absent in older files
   std::optional<double> oil_residue{}, oil_moved{};
   double complete = 0.0, cycles = 0.0, steps_accepted = 0.0, steps_rejected = 0.0;
 

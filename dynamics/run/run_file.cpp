@@ -43,6 +43,7 @@ RunCertificate run_certificate(const RunResult& result) {
   RunCertificate numbers{result.periodicity};
   numbers.energy_residue = result.energy_residue;
   numbers.energy_exchanged = result.energy_exchanged;
+  numbers.energy_imbalance = result.energy_imbalance;
   if (result.oil) {
     numbers.oil_residue = result.oil->residue();
     numbers.oil_moved = result.oil->moved;
@@ -96,7 +97,7 @@ void write_run(const Scene& scene, const LoadedBodies& bodies, const RunResult& 
   file.set("energy", "residue", result.energy_residue);
   result.model->effects.write(file);
   write_statistics(file, result.statistics);
-  write_certificate(file, run_certificate(result));
+  store_certificate(file, run_certificate(result));
 }
 
 }  // namespace clatter::dynamics

@@ -77,7 +77,8 @@ std::vector<std::string> describe(const RunResult& result, double seconds, Reade
       "{:.2f}; {:.2f} in total",
       s.total_seconds, s.element_seconds, s.factor_seconds, s.operator_seconds, seconds));
   for (const std::string& text : periodicity_lines(result.periodicity)) lines.push_back(text);
-  lines.push_back(fmt::format("energy residue: {:.2e} of {:.4g} J exchanged", result.energy_residue,
+  lines.push_back(fmt::format("energy residue: {:.2e}, {:.2g} J of {:.4g} J exchanged",
+                              result.energy_residue, result.energy_imbalance,
                               result.energy_exchanged));
   return lines;
 }

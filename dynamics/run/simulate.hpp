@@ -30,6 +30,7 @@ struct RunResult {
   std::string failure;                  // why the integration failed; empty: it did not
   double energy_residue = 0.0;          // of the reported cycle
   double energy_exchanged = 0.0;        // [J]
+  double energy_imbalance = 0.0;        // [J]
   std::optional<film::OilBalance> oil;  // of the contact that misses most of it; none remembered
   CycleDifference periodicity;          // of the reported cycle
   std::vector<std::string> warnings;  // of the reported cycle: accuracy, film pressure, components

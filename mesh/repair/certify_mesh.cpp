@@ -11,7 +11,7 @@
 namespace clatter::mesh {
 namespace {
 
-constexpr double kClosedTolerance = 1e-10;  // relative; rounding of some 1e5 sums
+double refused_above(const char* name) { return judgement_of<MeshCertificate>(name).refused; }
 
 }  // namespace
 
@@ -24,7 +24,8 @@ MeshCertificate certify_mesh(const Mesh& mesh, const QualityReport& quality) {
   const double against_surface = std::abs(closed.enclosed / volume - 1.0);
   const double open = closed.normal.norm() / closed.area;
   const auto inward = static_cast<double>(count_inward(mesh, skin));
-  if (against_surface > kClosedTolerance || open > kClosedTolerance || inward > 0.0) {
+  if (against_surface > refused_above("volume_against_surface_integral") ||
+      open > refused_above("closed_surface_residue") || inward > refused_above("inward_normals")) {
     throw NumericsError(fmt::format(
         "mesh: the boundary is not closed and outward: volume differs by {:.3g}, |sum n dS| / area "
         "= {:.3g}, {} inward normals",

@@ -37,7 +37,8 @@ class Sampler {
         velocity_(velocity),
         flow_(flow),
         sound_(sound),
-        source_(sound::inner_point(sound.skin)) {
+        source_(sound::inner_point(sound.skin, kDepth * sound.skin.mean_edge)) {
+    if (!source_) say("acoustic skin: the body is too thin to be checked by a point source inside");
     points_.resize(static_cast<Eigen::Index>(sound.table.microphones.size()), 3);
     for (Eigen::Index m = 0; m < points_.rows(); ++m)
       points_.row(m) = sound.table.microphones[m].position.transpose();
@@ -45,9 +46,14 @@ class Sampler {
 
   SoundSample operator()(double frequency_hz) {
     const Eigen::Index r = velocity_.cols();
-    const sound::MonopoleMotion check = sound::monopole(sound_.skin, space_, frequency_hz, source_);
-    Eigen::MatrixXcd motions(velocity_.rows(), r + 1);
-    motions << velocity_.cast<sound::Complex>(), check.velocity;
+    Eigen::MatrixXcd motions = velocity_.cast<sound::Complex>();
+    double exact = 0.0;
+    if (source_) {
+      const auto check = sound::monopole(sound_.skin, space_, frequency_hz, *source_);
+      motions.conservativeResize(Eigen::NoChange, r + 1);
+      motions.col(r) = check.velocity;
+      exact = check.power;
+    }
     const sound::BoundaryEquations equations(sound_.skin, space_, frequency_hz);
     const sound::SurfaceState state = equations.radiate(motions);
     const Eigen::VectorXd power = sound::far_power(sound_.skin, space_, state);
@@ -56,34 +62,43 @@ class Sampler {
     sample.far =
         stored_far_field(sound::far_harmonics(sound_.skin, space_, equations).of_flow, flow_);
     sample.R = far_field_resistance(space_, sample.far, flow_);
-    note_errors(state, check.power, power, sample);
+    note_errors(state, power, sample);
+    if (source_) note_source(state, exact, power[r]);
     return sample;
   }
 
  private:
-  /// @param exact power of the point source, the last motion of `state`
-  /// @param power from the far field in directions, of all motions
-  void note_errors(const sound::SurfaceState& state, double exact, const Eigen::VectorXd& power,
-                   const SoundSample& sample) {
-    const Eigen::Index r = velocity_.cols();
+  /// Of the point source, the last motion of `state`.
+  /// @param exact, far its power, and that from the far field in directions
+  void note_source(const sound::SurfaceState& state, double exact, double far) {
     const sound::SurfaceState last{state.frequency_hz, state.velocity.rightCols(1),
                                    state.pressure.rightCols(1)};
+    const double near = sound::surface_power(sound_.skin, last)[0];
+    const auto raise = [](std::optional<double>& highest, double value) {
+      highest = std::max(highest.value_or(0.0), value);
+    };
+    raise(sound_.certificate.monopole_error_db, decibels(far, exact));
+    raise(sound_.certificate.surface_power_error_db, decibels(near, far));
+  }
+
+  /// @param power from the far field in directions, of all motions
+  void note_errors(const sound::SurfaceState& state, const Eigen::VectorXd& power,
+                   const SoundSample& sample) {
     SoundCertificate& certificate = sound_.certificate;
     const auto raise = [](double& highest, double value) { highest = std::max(highest, value); };
-    raise(certificate.monopole_error_db, decibels(power[r], exact));
-    raise(certificate.surface_power_error_db,
-          decibels(sound::surface_power(sound_.skin, last)[0], power[r]));
     raise(certificate.highest_condition, state.condition);
-    for (Eigen::Index j = 0; j < r; ++j)
+    for (Eigen::Index j = 0; j < velocity_.cols(); ++j)
       if (power[j] > 0.0)
         raise(certificate.far_field_error_db, decibels(0.5 * sample.R(j, j), power[j]));
   }
+
+  static constexpr double kDepth = 0.7;  // of the point source, in mean edges
 
   const sound::Space& space_;
   const Eigen::MatrixXd& velocity_;
   const RowMatrix& flow_;
   PartSound& sound_;
-  Eigen::Vector3d source_;
+  std::optional<Eigen::Vector3d> source_;
   RowMatrix points_;
 };
 
@@ -217,8 +232,9 @@ PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options
   check_limit(model, options);
   const sound::Space space = options.space();
   PartSound out;
-  out.skin =
+  const AcousticSkin skin =
       acoustic_skin(model.skin, options.skin.mesh, space.fluid.sound_speed, options.grid.to_hz);
+  out.skin = skin.surface;
   clock.lap("acoustic skin");
   const SkinGeometry geometry = measure_skin(model.skin.nodes, model.skin.triangles);
   out.map =
@@ -236,12 +252,15 @@ PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options
   out.certificate = {.faces = static_cast<double>(out.skin.face_count()),
                      .mesh_limit_hz = sound::mesh_limit_hz(out.skin, space.fluid.sound_speed,
                                                            options.skin.mesh.edges_per_wavelength),
+                     .shape_error = skin.shape_error,
                      .lid_area_m2 = out.map.lid_area,
                      .open_edges = open_edges(model.skin),
                      .map_flux_error = out.map.errors.flux,
                      .map_velocity_error = out.map.errors.velocity};
-  say(fmt::format("acoustic skin: {} faces, {:.4g} m2, of it lids {:.3g} m2; good to {:.4g} Hz",
-                  out.skin.face_count(), out.skin.area, out.map.lid_area,
+  say(
+      fmt::format("acoustic skin: {} faces, {:.4g} m2, of it lids {:.3g} m2 over openings up to "
+                  "{:.3g} m; good to {:.4g} Hz",
+                  out.skin.face_count(), out.skin.area, out.map.lid_area, skin.opening,
                   out.certificate.mesh_limit_hz));
   const std::vector<int32_t> one(static_cast<size_t>(model.skin.triangles.rows()), 0);
   const rom::SkinRows T(model.skin.T);

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -150,6 +152,93 @@ TEST_F(Certificates, ANumberOfEveryFileThatIsAbsentIsReported) {
                      {"a.h5: certificate: found no nodes, expected a number"});
 }
 
+/// A certificate whose judged numbers are just good, but the field `other`.
+template <class C>
+C good_but(const std::string& other, double value) {
+  C certificate;
+  for (const CertificateField<C>& field : C::fields())
+    field.visit(certificate, [&]<class T>(T& member) {
+      if (!field.judgement.judges()) return;
+      const double number = field.name == other ? value : field.judgement.good;
+      if constexpr (std::is_same_v<T, CertificateNumbers>)
+        member = {{"block", number}};
+      else
+        member = number;
+    });
+  return certificate;
+}
+
+/// What write_certificate() warns of, and the refusal.
+template <class C>
+std::string said_of(H5File file, const C& certificate) {
+  ::testing::internal::CaptureStderr();
+  std::string refusal;
+  try {
+    write_certificate(file, certificate);
+  } catch (const NumericsError& error) {
+    refusal = std::string("refused: ") + error.what();
+  }
+  std::string said = ::testing::internal::GetCapturedStderr();
+  if (said.ends_with('\n')) said.pop_back();
+  return said + refusal;
+}
+
+/// A number between the limits, and one beyond both.
+std::pair<double, double> not_good(const Judgement& judgement) {
+  const double sign = judgement.refused < judgement.good ? -1.0 : 1.0;
+  if (!std::isfinite(judgement.refused)) return {judgement.good + sign, std::nan("")};
+  return {0.5 * (judgement.good + judgement.refused),
+          judgement.refused + sign * (1.0 + std::abs(judgement.refused))};
+}
+
+TEST_F(Certificates, EachJudgedNumberPassesWarnsAndIsRefused) {
+  for_each_certificate([&]<class C>(const char* kind) {
+    const auto said = [&](const std::string& name, double value) {
+      return said_of(H5File::create(folder_ / "a.h5"), good_but<C>(name, value));
+    };
+    EXPECT_EQ(said("", 0.0), "") << kind;
+    for (const CertificateField<C>& field : C::fields()) {
+      const Judgement& judgement = field.judgement;
+      if (!judgement.judges()) continue;
+      const std::string all = field.name, name = all.substr(0, all.find('<'));
+      const auto [between, beyond] = not_good(judgement);
+      if (judgement.good != judgement.refused)
+        test::expect_parts(said(field.name, between),
+                           {"warning: ", "a.h5: " + name, judgement.good_text(), judgement.why});
+      test::expect_parts(said(field.name, beyond),
+                         {"refused: ", "a.h5: " + name, judgement.good_text(), judgement.why,
+                          judgement.refused_text()});
+    }
+  });
+}
+
+TEST_F(Certificates, FilesKeepTheLimitsByWhichTheyWereJudged) {
+  H5File file = H5File::create(folder_ / "a.h5");
+  file.set("/", "schema", "clatter/test/1");
+  write_certificate(file, good_but<modal::ShapeCertificate>("", 0.0));
+  file.commit();
+  const H5File read = H5File::open(folder_ / "a.h5");
+  EXPECT_EQ(read.read_strings("judged/name"), std::vector<std::string>{"covered"});
+  EXPECT_EQ(read.read_vector("judged/good")(0), 0.1);
+}
+
+TEST_F(Certificates, WhatTellsOfQualityIsJudged) {
+  // Of other bases than that of the file, or without a limit that holds for all parts.
+  const std::set<std::string> not_judged{"frequency_error_joined", "frequency_error_bound",
+                                         "frequency_error_target", "frequency_error_modes",
+                                         "energy_imbalance",       "map_velocity_error",
+                                         "poor_cells_volume_share"};
+  const std::regex quality(
+      ".*(error|residue|residual_max|difference|closure|condition|proved|covered|mac|share|balance|"
+      "rounding|jump|invalid_cells$|periodicity_<).*");
+  for_each_certificate([&]<class C>(const char* kind) {
+    for (const CertificateField<C>& field : C::fields())
+      if (std::regex_match(field.name, quality))
+        EXPECT_NE(field.judgement.judges(), not_judged.contains(field.name))
+            << kind << ": " << field.name;
+  });
+}
+
 /// The table `certificate` in the section of this kind of artefact in docs/formats.md.
 std::string documented(const std::string& kind) {
   std::stringstream text;
@@ -169,6 +258,24 @@ TEST_F(Certificates, TablesInTheDocumentAreThoseOfTheFields) {
     EXPECT_EQ(documented(kind), certificate_table<C>()) << kind;
   });
   EXPECT_EQ(documented("faces"), "none");
+}
+
+/// The table in the section of this kind of artefact in docs/certificates.md.
+std::string documented_judgements(const std::string& kind) {
+  std::stringstream text;
+  text << std::ifstream(CLATTER_SOURCE_DIR "/docs/certificates.md").rdbuf();
+  const std::string all = text.str(), title = "\n## `." + kind + ".h5`\n\n";
+  const size_t section = all.find(title);
+  if (section == std::string::npos) return "none";
+  const size_t table = section + title.size(), end = all.find("\n\n", table);
+  return end == std::string::npos ? all.substr(table) : all.substr(table, end + 1 - table);
+}
+
+// Where this fails, the table to put into the document is the expected text.
+TEST_F(Certificates, JudgementsInTheDocumentAreThoseOfTheFields) {
+  for_each_certificate([]<class C>(const char* kind) {
+    EXPECT_EQ(documented_judgements(kind), judgement_table<C>()) << kind;
+  });
 }
 
 }  // namespace

@@ -259,13 +259,16 @@ class Parts(unittest.TestCase):
         self.assertGreater(missed, 0.1)
 
     def test_certificates_that_are_bad_are_said_to_be(self):
+        limits = {"energy_residue": (0.01, 0.5), "periodicity_block": (0.1, np.inf), "oil_residue": (0.01, np.inf), "verified_mac": (0.9, -np.inf)}
         for found, state in (({}, "bad"), ({"certified": 1.0, "count_proved": 1.0}, "good"), ({"certified": 1.0, "count_proved": 0.0}, "bad"),
                              ({"certified": 0.0, "count_proved": 1.0}, "bad")):
-            self.assertEqual(certificates.model_state(found), state)
-        for found, state, expected in (({"energy_residue": 0.2}, "bad", "closes to 2.0e-01"), ({"complete": 0.0}, "bad", "not complete"),
+            self.assertEqual(certificates.worst(certificates.model_sentences(found, {})), state)
+        for found, state, expected in (({"energy_residue": 0.6}, "bad", "closes to 6.0e-01"), ({"complete": 0.0}, "bad", "not complete"),
+                                       ({"energy_residue": 0.2}, "note", "closes to 2.0e-01"), ({"energy_residue": 0.002}, "good", "closes to 2.0e-03"),
+                                       ({"complete": 1.0, "oil_residue": 0.2}, "note", "oil_residue is 0.2, good up to 0.01"),
                                        ({"periodicity_block": 0.5}, "note", "block 50 %"), ({"periodicity_block": 0.01}, "good", "block 1 %"),
                                        ({"periodicity_lateral_c2": 3e-6}, "good", "piston c2 repeats its lateral position from cycle to cycle to 3 µm")):
-            sentences = certificates.run_sentences(found)
+            sentences = certificates.run_sentences(found, {name: limits[name] for name in found if name in limits})
             self.assertEqual(certificates.worst(sentences), state)
             self.assertIn(expected, " ".join(text for _, text in sentences))
 

@@ -59,6 +59,12 @@ GROUPS = [
 ]
 
 
+def bad(name, value, judgements):
+    """What follows the meaning of a number that is not good."""
+    said = remark(name, value, judgements)
+    return f": {said}" if said.startswith("NOT") else ""
+
+
 def value_text(form, value):
     if form == "{:yes}":
         return "yes" if value else "no"
@@ -76,12 +82,25 @@ def verdict(found):
     return f"certified; {proof}; {known}"
 
 
-def print_certificate(found):
-    """`found`: artefact.certificate(file) of a reduced model."""
+def limit_text(limits):
+    """"up to 0.001", "from 0.9": the numbers that are good."""
+    return f"{'from' if limits[1] < limits[0] else 'up to'} {limits[0]:g}"
+
+
+def remark(name, value, judgements):
+    """"" for what is not judged, "good (up to 0.001)" or "NOT GOOD (up to 0.001)"."""
+    if name not in judgements:
+        return ""
+    good = artefact.verdict(value, judgements[name]) == "good"
+    return f"{'good' if good else 'NOT GOOD'} ({limit_text(judgements[name])})"
+
+
+def print_certificate(found, judgements):
+    """`found`, `judgements`: artefact.certificate(file), artefact.judgements(file) of a reduced model."""
     print(f"certificate: {verdict(found)}")
     left = {name: value for name, value in found.items() if name != "certified"}
     for title, rows in GROUPS:
-        rows = [(name, value_text(form, left.pop(name)), meaning) for name, form, meaning in rows if name in left]
+        rows = [(name, value_text(form, left[name]), meaning + bad(name, left.pop(name), judgements)) for name, form, meaning in rows if name in left]
         if rows:
             print(f"  {title}")
         for name, value, meaning in rows:

@@ -39,10 +39,10 @@ def print_info(path):
         print_section("inputs", [f"{name}  sha256 {digest[:12]}  ({state})"
                                     for name, state, digest in artefact.hashed_inputs(file)])
         if artefact.text(file.attrs.get("schema", "")).startswith("clatter/rom/"):
-            certificate.print_certificate(artefact.certificate(file))
+            certificate.print_certificate(artefact.certificate(file), artefact.judgements(file))
             certificate.print_boundary(file)
         else:
-            print_section("proved", [f"{name:<40} {value:.6g}" if isinstance(value, float) else f"{name:<40} {value}"
+            print_section("proved", [f"{name:<40} {value:<14.6g}  {certificate.remark(name, value, artefact.judgements(file))}".rstrip()
                                      for name, value in artefact.certificate(file).items()])
         steps = [f"{name:<40} {seconds:9.2f} s   peak {peak:.2f} GiB" for name, seconds, peak in artefact.timing(file)]
         if steps:
@@ -51,7 +51,7 @@ def print_info(path):
         print_section("cost", steps)
         print_section("integrity", [f"{integrity.describe(file)} (clatter info --verify checks them all)"])
         print("contents")
-        print_tree({name: file[name] for name in file if name not in ("inputs", "certificate", "timing")})
+        print_tree({name: file[name] for name in file if name not in ("inputs", "certificate", "judged", "timing")})
 
 
 def print_section(title, lines):
