@@ -53,7 +53,7 @@ const std::vector<CertificateField<FeCertificate>>& FeCertificate::fields() {
        &C::heat_balance,
        "",
        "sum of the heat into the part over the heat that flows, of a temperature field",
-       {1e-6, 1e-3, "the temperature field is not solved"}}};
+       {1e-6, Judgement::kNever, "the temperature field is not solved"}}};
   return list;
 }
 
