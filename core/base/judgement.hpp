@@ -25,6 +25,14 @@ struct Judgement {
   std::string refused_text() const;
 };
 
+constexpr Judgement good_up_to(double good, const char* why,
+                               double refused_above = Judgement::kNever) {
+  return {good, refused_above, why};
+}
+constexpr Judgement good_from(double good, const char* why) {
+  return {good, -Judgement::kNever, why};
+}
+
 /// A judged number.
 struct Judged {
   std::string name;

@@ -8,24 +8,20 @@ namespace clatter::dynamics {
 const std::vector<CertificateField<RunCertificate>>& RunCertificate::fields() {
   using C = RunCertificate;
   static const std::vector<CertificateField<C>> list = {
-      {"energy_residue",
-       &C::energy_residue,
-       "",
+      {"energy_residue", &C::energy_residue, "",
        "imbalance over the energy exchanged, at least over that of bodies at the limit of the "
        "error "
        "test, tolerance times velocity_m_s",
-       {0.01, 0.5,
-        "steps are too coarse for this motion: a smaller [accuracy] velocity_m_s"}},
+       good_up_to(0.01, "steps are too coarse for this motion: a smaller [accuracy] velocity_m_s",
+                  0.5)},
       {"energy_exchanged", &C::energy_exchanged, "J", "the energy exchanged"},
       {"energy_imbalance", &C::energy_imbalance, "J",
        "change of the stored energy less what came in, plus what was lost"},
-      {"oil_residue",
-       &C::oil_residue,
-       "",
+      {"oil_residue", &C::oil_residue, "",
        "largest of the contacts: oil that is missing since the start, over what moved; absent "
        "unless "
        "a scene has [contact.liner_oil]",
-       {0.01, Judgement::kNever, "the film loses oil: a finer mesh or smaller steps"}},
+       good_up_to(0.01, "the film loses oil: a finer mesh or smaller steps")},
       {"oil_moved", &C::oil_moved, "m3", "what moved there"},
       {"complete", &C::complete, "", "1: it ran to the end"},
       {"cycles", &C::cycles, "", "completed cycles; 1 for a scene without an engine"},
@@ -38,11 +34,8 @@ const std::vector<CertificateField<RunCertificate>>& RunCertificate::fields() {
       {"periodicity_lateral_<cylinder>", &C::lateral_of, "m",
        "the lateral position of each named cylinder's piston"},
       {"periodicity_tilt_<cylinder>", &C::tilt_of, "rad", "the same of its tilt"},
-      {"periodicity_<body>",
-       &C::velocity,
-       "",
-       "relative difference of the body's velocities",
-       {0.1, Judgement::kNever, "cycles differ: more cycles, or a mean over several"}}};
+      {"periodicity_<body>", &C::velocity, "", "relative difference of the body's velocities",
+       good_up_to(0.1, "cycles differ: more cycles, or a mean over several")}};
   return list;
 }
 
