@@ -3,7 +3,7 @@
 #   make build      the six executables          make install   PREFIX=/usr/local DESTDIR=
 #   make demo       samples/truck_diesel         make validate  the longer comparisons as well
 #   make check      every test but the long ones     make sanitize  the same with ASan and UBSan
-#   make hard       every hard case of docs/hard-cases.md with a line each; CASES="B3 N" chooses, WRITE=1 writes docs/hard-results.md
+#   make hard       every hard case of docs/hard-cases.md with a line each; CASES="B3 N" chooses
 #   make check-mpi  clatter-condense-mpi by several processes, and its tests
 #   make docs       the site in build/docs           make lint      format, workflows, self-contained headers; make tidy: clang-tidy
 #   make keys-pages docs/keys/*.md, the keys of each TOML file; make help-pages: man pages and the completion of bash, from --help
@@ -68,7 +68,7 @@ check: setup-check build-tests
 # A line for each hard case (LONG=1: with its long tests), build/hard/hard.json and the page build/hard/index.html.
 hard: setup-check build-tests
 	@/usr/bin/python3 -B tests/hard/run_hard_cases.py $(BUILD) --jobs $(JOBS) --output build/hard \
-	  $(if $(CASES),--cases $(CASES)) $(if $(LONG),--long) $(if $(WRITE),--write docs/hard-results.md)
+	  $(if $(CASES),--cases $(CASES)) $(if $(LONG),--long)
 
 # The programs of several processes; the others stay without MPI.
 build-mpi: setup-mpi

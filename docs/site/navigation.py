@@ -30,7 +30,7 @@ NAVIGATION = {
                   ("docs/python.md", "Python"), ("docs/matlab.md", "MATLAB"),
                   ("docs/cards.md", "Cards and keywords"),
                   ("docs/accuracy.md", "Accuracy"), ("docs/validation.md", "Validation"), ("docs/hard-cases.md", "Hard cases"),
-                  ("docs/hard-results.md", "Hard cases: results"), ("docs/certificates.md", "Certificates"),
+                  ("docs/certificates.md", "Certificates"),
                   ("docs/cluster.md", "Batch systems")],
     "Development": [("CONTRIBUTING.md", "Contributing"), ("STYLE.md", "Style"), ("CHANGELOG.md", "Changelog"),
                     ("core/README.md", "core"), ("bench/README.md", "bench")],

@@ -10,7 +10,6 @@ sys.path.insert(0, str(repository.SOURCE / "tests/hard"))
 from hard_list import CASE, HEAD, entries, listed, not_covered, sorting_key  # noqa: E402
 
 LIST = repository.SOURCE / "docs/hard-cases.md"
-RESULTS = repository.SOURCE / "docs/hard-results.md"
 # `hard case B3`, `hard cases G4, G9`, `Hard cases M1 to M5`, `(hard cases A4, C1, C2; H1)`
 CITATION = re.compile(rf"\b[Hh]ard[- ]cases?\s+({CASE}(?:(?:,| and| to|;)\s+{CASE})*)\b")
 
@@ -75,10 +74,6 @@ class HardCases(unittest.TestCase):
         for entry in listed(LIST.read_text()):
             with self.subTest(case=entry.case):
                 self.assertTrue(entry.title and entry.must)
-
-    def test_the_table_of_results_has_every_case(self):
-        shown = re.findall(rf"^\| ({CASE}) \|", RESULTS.read_text(), re.M)
-        self.assertEqual(shown, list(entries(LIST.read_text())), "docs/hard-results.md: run `make hard WRITE=1`")
 
     def test_whoever_names_the_file_names_the_one_in_docs(self):
         for path in repository.files(".cpp", ".hpp", ".py", ".md", ".txt", ".cmake"):

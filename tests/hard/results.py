@@ -3,7 +3,6 @@
 import dataclasses
 import html
 import math
-import pathlib
 import re
 
 import observations
@@ -34,7 +33,6 @@ td {{ white-space: normal; vertical-align: top; text-align: left; }}
 </body>
 </html>
 """
-LIST = pathlib.Path("docs/hard-cases.md")
 HEADINGS = ("case", "what could go wrong", "what must happen", "what happened", "margin", "seconds", "")
 
 
@@ -130,28 +128,3 @@ def page(results, style):
 
 def margin_note(seen):
     return "" if seen.margin is None else f", margin {observations.margin_text(seen.margin)}"
-
-
-def table(results, with_long):
-    """docs/hard-results.md: what each case did in the run that wrote it. Machines are not named, nor times of day."""
-    lines = ["# Hard cases: results", "",
-             f"Made by `make hard WRITE=1` from a run of every test that [{LIST.name}]({LIST.name}) names; do",
-             "not edit. `make hard` repeats the run and makes the page `build/hard/index.html` with all figures.",
-             "\"Margin\" is how many times the figure nearest to its limit fits that limit; a case that is refused",
-             "has the message instead. Seconds are those of all tests of the case, several cases at once.",
-             "Tests with the label `long` ran as well." if with_long else "Tests with the label `long` were left out (`LONG=1`).", "",
-             f"{summary(results)}.", "", "| case | what could go wrong | what must happen | what happened | margin | seconds |",
-             "|---|---|---|---|---|---|"]
-    for one in results:
-        figures = sorted(one.seen, key=lambda seen: math.inf if seen.margin is None else seen.margin)
-        text = "; ".join([f"**{one.trouble}**"] if one.trouble else [seen.text for seen in figures[:3]] or [happened(one)])
-        more = f"; and {len(figures) - 3} more" if len(figures) > 3 and not one.trouble else ""
-        lines.append("| " + " | ".join(cell(text) for text in (
-            one.entry.case, one.entry.title, plain(one.entry.must), text + more, observations.margin_text(margin_of(one)),
-            f"{one.seconds:.1f}")) + " |")
-    return "\n".join(lines) + "\n"
-
-
-def cell(text):
-    """Text as the cell of a Markdown table: no markup of its own."""
-    return text.replace("|", "\\|").replace("<", "&lt;").replace("\n", " ")

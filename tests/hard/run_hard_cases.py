@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the tests of every entry of docs/hard-cases.md and prints a line for each: `make hard`.
 
-    run_hard_cases.py BUILD [--cases B3 N] [--jobs 2] [--output build/hard] [--write docs/hard-results.md] [--long]
+    run_hard_cases.py BUILD [--cases B3 N] [--jobs 2] [--output build/hard] [--long]
 
 Exit code 1 when a case failed or none of its tests ran, 2 for an invalid command line."""
 import argparse
@@ -65,11 +65,8 @@ def main(arguments=None):
     parser.add_argument("--cases", nargs="*", default=[], help="cases, B3, or letters of sections, N; all by default")
     parser.add_argument("--jobs", type=int, default=1, help="entries at once")
     parser.add_argument("--output", type=pathlib.Path, help="folder of hard.json and index.html")
-    parser.add_argument("--write", type=pathlib.Path, help="Markdown table of the results, of all cases only")
     parser.add_argument("--long", action="store_true", help="runs tests with the label long as well, which take minutes")
     given = parser.parse_args(arguments)
-    if given.write and given.cases:
-        parser.error("--write needs a run of all cases")
     try:
         entries = chosen(hard_list.listed((SOURCE / "docs/hard-cases.md").read_text(encoding="utf-8")), given.cases)
     except ValueError as error:
@@ -84,10 +81,7 @@ def main(arguments=None):
         write_whole(given.output / "hard.json", json.dumps(results.as_json(found), indent=1) + "\n")
         style = (SOURCE / "tools/clatter_tools/page/page.css").read_text(encoding="utf-8")
         write_whole(given.output / "index.html", results.page(found, style))
-    failed = any(one.trouble for one in found)
-    if given.write and not failed:
-        write_whole(given.write, results.table(found, given.long))
-    return 1 if failed else 0
+    return 1 if any(one.trouble for one in found) else 0
 
 
 if __name__ == "__main__":
