@@ -92,7 +92,7 @@ class Sampler {
         raise(certificate.far_field_error_db, decibels(0.5 * sample.R(j, j), power[j]));
   }
 
-  static constexpr double kDepth = 0.7;  // of the point source, in mean edges
+  static constexpr double kDepth = 0.4;  // of the point source, in mean edges
 
   const sound::Space& space_;
   const Eigen::MatrixXd& velocity_;
