@@ -11,6 +11,7 @@ function(clatter_python_test file label)
   else()
     set(seconds 600)
   endif()
+  math(EXPR seconds "${seconds} * ${CLATTER_SLOWER}")
   set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT ${seconds} SKIP_RETURN_CODE 77
     ENVIRONMENT "CLATTER_BIN=${PROJECT_BINARY_DIR}/bin;CLATTER_BUILD=${PROJECT_BINARY_DIR};PYTHONPATH=${PROJECT_SOURCE_DIR}/python:${PROJECT_SOURCE_DIR}/tools:${PROJECT_SOURCE_DIR}/tests/tools;OMP_NUM_THREADS=2")
 endfunction()

@@ -158,6 +158,7 @@ function(clatter_test name)
 endfunction()
 
 function(clatter_register_cases name label filter seconds)
+  math(EXPR seconds "${seconds} * ${CLATTER_SLOWER}")
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 TEST_FILTER "${filter}" TEST_LIST ${name}_${label}
     PROPERTIES LABELS ${label} TIMEOUT ${seconds})
 endfunction()
