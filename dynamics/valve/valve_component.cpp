@@ -244,9 +244,11 @@ void ValveComponent::add_body_effects(const ModelBuilder&, EffectTable& effects)
 
 void ValveComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
   const std::string prefix = "valve " + spec_.name;
-  if (spec_.model == ValveModel::kQuasiStatic)
+  if (spec_.model == ValveModel::kQuasiStatic) {  // neither spring nor cam is there
     effects.add(find_effect(kValveEffects, "torque of valves"), prefix + " torque", true,
                 "springs and inertia, quasi-static", prefix);
+    return;
+  }
   add_spring_effect(prefix + " spring", spec_.coil.spring, effects);
   effects.add(find_effect(kValveEffects, "lash adjuster of valves"), prefix + " adjuster",
               spec_.adjuster.is_hydraulic,

@@ -168,7 +168,7 @@ TEST(Recess, AnEntireSkirtOfGrooveCarriesOnlyItsPressureWhichBalances) {
   options.recesses = {groove(-0.1, 0.1, 5e5)};
   Driven piston(options);
   piston.run(2e-3, 3e-3, 20, 5e-6);
-  EXPECT_EQ(piston.element->snapshot().front().pressure.minCoeff(), 5e5);
+  EXPECT_NEAR(piston.element->snapshot().front().pressure.minCoeff(), 5e5, 1e-9 * 5e5);
   // Rounding of 5e5 Pa times the skirt's area.
   EXPECT_LT(piston.response.force.head<2>().cwiseAbs().maxCoeff(), 1e-7);
 }

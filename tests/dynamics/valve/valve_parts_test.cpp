@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All elements of valves on a shaft: tangents, balance of forces, cost of an evaluation.
+// All elements of valves on a shaft: tangents and balance of forces.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 
 #include "tests/dynamics/mechanisms.hpp"
@@ -46,39 +45,6 @@ TEST(ValveTrain, TheTangentOfEachElementIsTheDerivativeOfItsForce) {
           << element.name();
     }
     EXPECT_EQ(tested, 18);
-  }
-}
-
-TEST(ValveTrain, CostOfAnEvaluationOfTwelveValves) {
-  for (const char* model : {"full", "rigid"}) {
-    const auto valves = testing::valves_on_a_shaft(model, 1700.0, 12);
-    System& system = valves->system();
-    VectorXd v;
-    const VectorXd y = settled(system, v);
-    Response response;
-    for (const bool tangent : {false, true}) {
-      double best = 1e9;
-      for (int repeat = 0; repeat < 20; ++repeat) {
-        double sum = 0.0;
-        for (int e = 0; e < system.elements(); ++e) {
-          ForceElement& element = system.element(e);
-          if (element.name().rfind("valve ", 0) != 0) continue;
-          const VectorXd at = gather(y, element.coordinates()),
-                         rate = gather(v, element.coordinates());
-          element.evaluate({0.1, 1e-6, 1, {}}, at, rate, tangent, response);
-          const auto begin = std::chrono::steady_clock::now();
-          for (int i = 0; i < 10; ++i)
-            element.evaluate({0.1, 1e-6, 1, {}}, at, rate, tangent, response);
-          const std::chrono::duration<double, std::micro> time =
-              std::chrono::steady_clock::now() - begin;
-          sum += 0.1 * time.count();
-        }
-        best = std::min(best, sum);
-      }
-      std::printf("12 valves, shaft %s, %s: %.1f us\n", model, tangent ? "with tangent" : "force",
-                  best);
-      EXPECT_LT(best, 1000.0);  // a bound of sanity: the machine is shared
-    }
   }
 }
 

@@ -148,6 +148,10 @@ lobe = [{ body = "cam.lobe", at_mm = [0, 0, 0], deg = 0 }]
               full ? "on, model = \"full\": 1 valves as bodies"
                    : "off, model = \"quasi_static\": torque on 1 cams by the lift law");
     EXPECT_EQ(file.has("history/valve_intake_1_moment"), !full);
+    // Parts that are bodies have rows where there are any.
+    const auto names = file.read_strings("effects/name");
+    for (const char* part : {"valve intake spring", "valve intake cam", "valve intake contacts"})
+      EXPECT_EQ(std::ranges::count(names, part), full ? 1 : 0) << part;
     speeds[full ? 1 : 0] = of(file, "cam.lobe_speed");
   }
   // At full lift the spring's energy is missing in the speed, 8.4e-3 rad/s of 21.
