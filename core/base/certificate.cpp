@@ -51,17 +51,10 @@ void write_certificate_numbers(H5File& file, const CertificateNumbers& numbers) 
 }
 
 void write_judgements(H5File& file, const std::vector<Judged>& numbers) {
-  if (numbers.empty()) return;
-  std::vector<std::string> names;
-  std::vector<double> good, refused;
   for (const Judged& number : numbers) {
-    names.push_back(number.name);
-    good.push_back(number.judgement.good);
-    refused.push_back(number.judgement.refused);
+    file.set("judged/good", number.name, number.judgement.good);
+    file.set("judged/refused", number.name, number.judgement.refused);
   }
-  file.write("judged/name", names);
-  file.write("judged/good", good);
-  file.write("judged/refused", refused);
 }
 
 CertificateNumbers read_certificate_numbers(const H5File& file) {

@@ -75,7 +75,7 @@ void write_certificate_numbers(H5File& file, const CertificateNumbers& numbers);
 /// All attributes of the group; none when it is absent. InputError for one that is no number.
 CertificateNumbers read_certificate_numbers(const H5File& file);
 
-/// Writes group `judged`: the names of the judged numbers and their limits.
+/// Writes the limits of the judged numbers as attributes of groups `judged/good`, `judged/refused`.
 void write_judgements(H5File& file, const std::vector<Judged>& numbers);
 
 /// A row of the table in docs/formats.md, with | escaped; "" for the family `<other>`.

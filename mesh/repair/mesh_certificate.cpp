@@ -57,8 +57,7 @@ const std::vector<CertificateField<MeshCertificate>>& MeshCertificate::fields() 
        good_up_to(0.05, "a mesh made here is refused above it, unless with --accept-poor-cells")},
       {"simpler_setting", &C::simpler_setting, "",
        "0: meshed as requested; 1: Gmsh succeeded only without `elements_per_turn`, 2: only with "
-       "MeshAdapt on the faces",
-       good_up_to(0.0, "round faces have fewer elements than asked for")}};
+       "MeshAdapt on the faces"}};
   return list;
 }
 

@@ -96,10 +96,9 @@ def certificate(file):
 
 def judgements(file):
     """{name: (good, refused)}: the limits of the judged numbers of the certificate (docs/certificates.md); none of older files."""
-    if "judged/name" not in file:
+    if "judged" not in file:
         return {}
-    return {text(name): (float(good), float(refused))
-            for name, good, refused in zip(*(file[f"judged/{one}"][()] for one in ("name", "good", "refused")))}
+    return {name: (float(good), float(file["judged/refused"].attrs[name])) for name, good in file["judged/good"].attrs.items()}
 
 
 def verdict(value, limits):

@@ -30,11 +30,13 @@ const std::vector<CertificateField<SoundCertificate>>& SoundCertificate::fields(
        good_up_to(0.2, "the acoustic skin does not resolve the highest frequency", 3.0)},
       {"surface_power_error_db", &C::surface_power_error_db, "dB",
        "largest difference of its power from pressures on the skin and from the far field",
-       good_up_to(0.5, "the acoustic skin does not resolve the highest frequency", 6.0)},
+       good_up_to(0.5,
+                  "the acoustic skin does not resolve the highest frequency, or the near field of "
+                  "a slow motion")},
       {"far_field_error_db", &C::far_field_error_db, "dB",
        "largest error of diagonal entries of R from the stored far field, against the far field "
        "in all directions",
-       good_up_to(1.0, "the stored far field misses lobes", 3.0)},
+       good_up_to(1.0, "the stored far field misses lobes of a motion that hardly radiates")},
       {"interpolation_error_db", &C::interpolation_error_db, "dB",
        "largest error of interpolated diagonal entries of R, measured at frequencies that were "
        "then added",
