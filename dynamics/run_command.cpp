@@ -58,7 +58,8 @@ RunControl control_of(const RunArguments& a, const Scene& scene) {
     say(fmt::format("{} belongs to another scene, other inputs or another program: starting again",
                     checkpoint.string()));
   } else if (a.resume && std::filesystem::exists(a.output.string() + ".part")) {
-    say(fmt::format("{}: no checkpoint, which are written between cycles: the interrupted run "
+    say(
+        fmt::format("{}: no checkpoint, which are written between cycles: the interrupted run "
                     "starts again",
                     a.output.string()));
   }

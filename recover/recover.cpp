@@ -340,12 +340,14 @@ std::string energy_text(const Analysis& analysis) {
   const double duration = analysis.piece.duration_s(), left = last_tenth_share(analysis);
   const std::string means = fmt::format("powers are means over {:.4g} s", duration);
   if (left > kOver)
-    return fmt::format("{}; the motion goes on at their end: the last tenth has {:.2g} % of its "
-                       "energy, and a longer window has more\n",
-                       means, 100.0 * left);
-  return fmt::format("{}: the energy level is the power level {:+.2f} dB re 1 pJ, of any window "
-                     "that holds the event\n",
-                     means, level_db(duration, 1.0));
+    return fmt::format(
+        "{}; the motion goes on at their end: the last tenth has {:.2g} % of its "
+        "energy, and a longer window has more\n",
+        means, 100.0 * left);
+  return fmt::format(
+      "{}: the energy level is the power level {:+.2f} dB re 1 pJ, of any window "
+      "that holds the event\n",
+      means, level_db(duration, 1.0));
 }
 
 }  // namespace
