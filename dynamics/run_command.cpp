@@ -98,8 +98,6 @@ void run_scene(const RunArguments& a, const CommonOptions& common) {
     print_result(line);
   say(fmt::format("{} written", a.output.string()));
   print_json_result(a.output, json_of(result), clock, common);
-  // Hours of work are kept, whatever they are worth.
-  require_trust(a.output.string(), judged_numbers(run_certificate(result)));
 }
 
 }  // namespace

@@ -244,7 +244,6 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
   if (model.valid_to_hz <= 0.0)
     warn(body.rom_path().filename().string() +
          ": valid_to_hz is not stated: spectra are not checked against the basis");
-  if (!body.complete()) warn(body.path().string() + ": the run was interrupted");
   const rom::SkinRows T = body.skin_rows();
   summary.sensors = with_context(options.origin,
                                  [&] { return find_sensors(options.sensors, model, T, geometry); });

@@ -21,8 +21,7 @@ const std::vector<CertificateField<FeCertificate>>& FeCertificate::fields() {
       {"rigid_recovery_error", &C::rigid_recovery_error, "",
        "error of T for the other rigid motions R, relative",
        good_up_to(1e-9, "constraints do not let the part move as it can", 1e-9)},
-      {"rigid_force_residue", &C::rigid_force_residue, "",
-       "|K R| / (|K| |R|) of them; up to 1e-9 is accepted in an assembled model",
+      {"rigid_force_residue", &C::rigid_force_residue, "", "|K R| / (|K| |R|) of them",
        good_up_to(1e-9,
                   "K resists rigid motions: matrices of few digits, or an unseen support; "
                   "assembled ones are refused")},

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/error.hpp"
@@ -55,6 +56,11 @@ std::vector<std::string> texts_of(const std::vector<Judged>& numbers, Verdict ve
 }
 
 }  // namespace
+
+bool any_refused(const std::vector<Judged>& numbers) {
+  return std::ranges::any_of(
+      numbers, [](const Judged& number) { return number.verdict() == Verdict::kRefused; });
+}
 
 void require_trust(const std::string& context, const std::vector<Judged>& numbers) {
   for (const std::string& text : texts_of(numbers, Verdict::kWarned))

@@ -42,6 +42,9 @@ struct Judged {
   Verdict verdict() const { return judgement.of(value); }
 };
 
+/// Whether a number is refused.
+bool any_refused(const std::vector<Judged>& numbers);
+
 /// Warns of the numbers that are not good, `context` before them; those of one judgement, as of a
 /// family, in one line: "energy_residue is 0.02, good up to 0.001: ...".
 /// @throws NumericsError for those that are refused, all in one line

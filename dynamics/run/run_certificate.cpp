@@ -10,8 +10,7 @@ const std::vector<CertificateField<RunCertificate>>& RunCertificate::fields() {
   static const std::vector<CertificateField<C>> list = {
       {"energy_residue", &C::energy_residue, "",
        "imbalance over the energy exchanged, at least over that of bodies at the limit of the "
-       "error "
-       "test, tolerance times velocity_m_s",
+       "error test, tolerance times velocity_m_s",
        good_up_to(0.01, "steps are too coarse for this motion: a smaller [accuracy] velocity_m_s",
                   0.5)},
       {"energy_exchanged", &C::energy_exchanged, "J", "the energy exchanged"},

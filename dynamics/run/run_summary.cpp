@@ -5,11 +5,13 @@
 
 #include "core/base/error.hpp"
 #include "core/base/planned_files.hpp"
+#include "dynamics/run/run_file.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
-constexpr const char *kFailed = ".failed.h5", *kInterrupted = ".interrupted.h5";
+constexpr const char *kFailed = ".failed.h5", *kInterrupted = ".interrupted.h5",
+                     *kRefused = ".refused.h5";
 
 std::filesystem::path beside(const std::filesystem::path& output, const char* ending) {
   return std::filesystem::path(output).replace_extension(ending);
@@ -19,14 +21,19 @@ std::filesystem::path beside(const std::filesystem::path& output, const char* en
 
 void plan_run_files(const std::filesystem::path& output) {
   will_write("--output", checkpoint_path(output));
-  for (const char* ending : {kFailed, kInterrupted}) will_write("--output", beside(output, ending));
+  for (const char* ending : {kFailed, kInterrupted, kRefused})
+    will_write("--output", beside(output, ending));
 }
 
-bool is_finished(const RunResult& result) { return result.failure.empty() && result.complete; }
+bool is_finished(const RunResult& result) {
+  return result.failure.empty() && result.complete &&
+         !any_refused(judged_numbers(run_certificate(result)));
+}
 
 std::filesystem::path written_file(const std::filesystem::path& output, const RunResult& result) {
   if (!result.failure.empty()) return beside(output, kFailed);
-  return result.complete ? output : beside(output, kInterrupted);
+  if (!result.complete) return beside(output, kInterrupted);
+  return is_finished(result) ? output : beside(output, kRefused);
 }
 
 void require_finished(const RunResult& result, const std::filesystem::path& output) {
@@ -39,12 +46,14 @@ void require_finished(const RunResult& result, const std::filesystem::path& outp
         "{}: interrupted after {} complete cycles, the results so far are in {}; continue "
         "with --resume",
         output.string(), result.cycles, written));
+  require_trust(written, judged_numbers(run_certificate(result)));
 }
 
 void remove_unfinished(const std::filesystem::path& output) {
   std::filesystem::remove(checkpoint_path(output));
   std::filesystem::remove(checkpoint_path(output).string() + ".part");  // of a killed run
-  std::filesystem::remove(beside(output, kInterrupted));
+  for (const char* ending : {kInterrupted, kRefused})
+    std::filesystem::remove(beside(output, ending));
 }
 
 std::vector<std::string> effect_rows(const EffectTable& effects, bool with_cost, Reader reader) {

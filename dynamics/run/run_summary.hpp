@@ -12,20 +12,22 @@
 namespace clatter::dynamics {
 
 /// Registers the files that a run may leave beside its output (core/base/planned_files.hpp):
-/// checkpoint, stem.run.failed.h5, stem.run.interrupted.h5.
+/// checkpoint, stem.run.failed.h5, stem.run.interrupted.h5, stem.run.refused.h5.
 void plan_run_files(const std::filesystem::path& output);
 
-/// Whether the run reached its end.
+/// Whether the run reached its end and its certificate is not refused.
 bool is_finished(const RunResult& result);
 
 /// The path of the results: only a finished run gets the requested name, which make and recover
 /// treat as finished.
 std::filesystem::path written_file(const std::filesystem::path& output, const RunResult& result);
 
-/// NumericsError when the run failed or was interrupted, with the path of the results so far.
+/// NumericsError when the run failed, was interrupted or has a certificate that is refused, with
+/// the path of the results; warnings of numbers that are not good.
 void require_finished(const RunResult& result, const std::filesystem::path& output);
 
-/// Removes the checkpoint and the file of an interruption, after a finished run.
+/// Removes the checkpoint and the files of runs that were interrupted or refused, after a finished
+/// one.
 void remove_unfinished(const std::filesystem::path& output);
 
 /// Who reads the lines: of a terminal's effects those that are off are one line.

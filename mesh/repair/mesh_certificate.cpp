@@ -53,7 +53,7 @@ const std::vector<CertificateField<MeshCertificate>>& MeshCertificate::fields() 
        good_up_to(0.005,
                   "flat cells stiffen the part: smaller elements there, or a simpler shape")},
       {"poor_cells_most_effect", &C::poor_cells_most_effect, "",
-       "the most that they can change frequencies, relative; above 0.05 a mesh is refused",
+       "the most that they can change frequencies, relative",
        good_up_to(0.05, "a mesh made here is refused above it, unless with --accept-poor-cells")},
       {"simpler_setting", &C::simpler_setting, "",
        "0: meshed as requested; 1: Gmsh succeeded only without `elements_per_turn`, 2: only with "

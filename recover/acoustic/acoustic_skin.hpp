@@ -14,7 +14,7 @@ struct AcousticMesh {
   std::optional<double> opening;      // holes up to this diameter are closed [m]
   double edges_per_wavelength = 5.0;  // at the highest frequency
   double shape_error = 0.02;          // largest of the shape, by shape_difference()
-  int most_faces = 12000;             // matrices take 16 (most_faces / 2)^2 bytes
+  int most_faces = 20000;             // matrices take 16 (most_faces / 2)^2 bytes
 
   /// 0.12 m, of smaller bodies a third of their size, where none is given.
   double opening_for(double size) const { return opening.value_or(std::min(0.12, size / 3.0)); }

@@ -87,7 +87,7 @@ class HardN18OutputEqualsInput(OutputTest):
             (self.folder / written).unlink()
 
     def test_files_that_a_run_leaves_beside_its_output(self):
-        for name in ("x.run.h5.checkpoint", "x.run.failed.h5", "x.run.interrupted.h5"):
+        for name in ("x.run.h5.checkpoint", "x.run.failed.h5", "x.run.interrupted.h5", "x.run.refused.h5"):
             os.link(self.folder / "step.run.toml", self.folder / name)
             with self.subTest(name=name):
                 self.refuse("dynamics", ["step.run.toml", "-o", "x.run.h5"], [f"{name} would overwrite the input"])

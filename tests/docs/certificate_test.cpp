@@ -241,6 +241,36 @@ TEST_F(Certificates, WhatTellsOfQualityIsJudged) {
   });
 }
 
+/// All pages of keys and all READMEs of stages, in which options are.
+std::string documents() {
+  std::stringstream text;
+  const std::filesystem::path source = CLATTER_SOURCE_DIR;
+  for (const auto& page : std::filesystem::directory_iterator(source / "docs/keys"))
+    text << std::ifstream(page.path()).rdbuf();
+  for (const char* stage : {"mesh", "assembly", "modal", "condense", "dynamics", "recover"})
+    text << std::ifstream(source / stage / "README.md").rdbuf();
+  return text.str();
+}
+
+TEST_F(Certificates, AdviceNamesKeysAndOptionsThatExist) {
+  const std::string known = documents();
+  const std::regex name("--[a-z][a-z-]+|[a-z]+_[a-z_]+");
+  int found = 0;
+  for_each_certificate([&]<class C>(const char* kind) {
+    std::set<std::string> own;  // other figures
+    for (const CertificateField<C>& field : C::fields()) own.insert(field.name);
+    for (const CertificateField<C>& field : C::fields()) {
+      const std::string why = field.judgement.judges() ? field.judgement.why : "";
+      for (std::sregex_iterator word(why.begin(), why.end(), name), end; word != end; ++word) {
+        ++found;
+        EXPECT_TRUE(own.contains(word->str()) || known.find(word->str()) != std::string::npos)
+            << kind << ", " << field.name << ": " << word->str();
+      }
+    }
+  });
+  EXPECT_GT(found, 5);
+}
+
 /// The table `certificate` in the section of this kind of artefact in docs/formats.md.
 std::string documented(const std::string& kind) {
   std::stringstream text;

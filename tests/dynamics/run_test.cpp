@@ -16,6 +16,7 @@
 #include "tests/dynamics/slap_scene.hpp"
 #include "tests/dynamics/synthetic.hpp"
 #include "tests/dynamics/synthetic_engine.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -345,6 +346,21 @@ TEST(AccuracyWarnings, NameTheScaleThatIsTooCoarse) {
       line(0.02).find("the body's own velocity_m_s is too coarse; set velocity_m_s = 2.0e-05"),
       std::string::npos)
       << line(0.02);
+}
+
+TEST(RunFiles, ARunThatMustNotBeTrustedIsKeptUnderANameOfItsOwn) {
+  RunResult result;
+  result.complete = true;
+  result.energy_residue = 0.1;  // warned of
+  EXPECT_EQ(written_file("a/b.run.h5", result), "a/b.run.h5");
+  EXPECT_TRUE(is_finished(result));
+  EXPECT_NO_THROW(require_finished(result, "a/b.run.h5"));
+  result.energy_residue = 0.9;
+  EXPECT_EQ(written_file("a/b.run.h5", result), "a/b.run.refused.h5");
+  EXPECT_FALSE(is_finished(result));  // for make it is still to be done
+  test::expect_parts(
+      test::refusal_of<NumericsError>([&] { require_finished(result, "a/b.run.h5"); }),
+      {"a/b.run.refused.h5: energy_residue is 0.9, good up to 0.01, refused above 0.5"});
 }
 
 TEST_F(Runs, BadScenesAreRefusedInOneLine) {

@@ -13,7 +13,7 @@ from .export.patient_file import PatientFile
 from .whole_file import whole_file
 
 AT = "analysis/cycle"
-UNFINISHED = ("failed", "interrupted")
+UNFINISHED = ("failed", "interrupted", "refused")
 
 
 def add_arguments(command):
@@ -51,7 +51,7 @@ def scenes(folder):
 
 
 def state_of(folder, name):
-    """"complete", "failed", "interrupted" or "missing": what happened last, since a run that fails leaves an older one as it is."""
+    """"complete", "failed", "interrupted", "refused" or "missing": what happened last, since a run that fails leaves an older one as it is."""
     files = {"complete": folder / f"{name}.run.h5", **{state: folder / f"{name}.run.{state}.h5" for state in UNFINISHED}}
     times = {state: path.stat().st_mtime_ns for state, path in files.items() if path.exists()}
     return max(times, key=times.get) if times else "missing"
@@ -144,7 +144,7 @@ def fill(sweep, file):
     file.attrs["schema"] = np.bytes_(schema_of("sweep"))
     put("name", [name for name, *_ in sweep.scenes], "1", "scenes, a row of all other datasets each")
     put("title", [title.encode() for _, title, _ in sweep.scenes], "1", "titles of the scenes")
-    put("state", sweep.states, "1", "complete, failed, interrupted or missing")
+    put("state", sweep.states, "1", "complete, failed, interrupted, refused or missing")
     put("speed_rpm", sweep.speeds(), "1/min", "mean speed of the crank")
     put("cost", sweep.cost.reshape(len(sweep.scenes), 4), "s, GiB, s, GiB", "seconds and peak memory of run and field")
     for key in sorted({key for *_, keys in sweep.scenes for key in keys}):

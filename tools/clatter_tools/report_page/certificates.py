@@ -43,8 +43,8 @@ def worst(sentences):
 
 
 def state(found, limits, name):
-    """Of a number of a certificate by its judgement; good without one, as in older files."""
-    return STATE[artefact.verdict(found[name], limits[name])] if name in limits else GOOD
+    """Of a number of a certificate by its judgement; a note without one, as in older files, which nobody judged."""
+    return STATE[artefact.verdict(found[name], limits[name])] if name in limits else NOTE
 
 
 def objections(found, limits, said):
