@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "dynamics/integrate/impact.hpp"
 
 namespace clatter::bench {
 
@@ -255,14 +256,14 @@ int FirstOrder::side(int event, double time, const double* x) {
 int FirstOrder::pass_event(int event, double time, double* x) {
   set_state(x);
   const EventFunction& which = events_[event];
-  ForceElement& element = system_->element(which.element);
-  const auto& at = element.coordinates();
-  VectorXd impulse = VectorXd::Zero(static_cast<Index>(at.size()));
   const dynamics::StageState now{time, eta_, v_, {}, y_, v_y_};
-  element.at_event(which.index, time, gather(y_, at), gather(v_y_, at), system_->mobility(now, at),
-                   impulse);
   VectorXd f = VectorXd::Zero(system_->interface_size()), eta_jump, v_jump;
-  for (size_t i = 0; i < at.size(); ++i) f(at[i]) += impulse(static_cast<Index>(i));
+  ForceElement& element = system_->element(which.element);
+  if (which.index == dynamics::RigidContact::kTouch &&
+      dynamic_cast<dynamics::RigidContact*>(&element) != nullptr)
+    f = dynamics::Impact(*system_, now, which.element).solve();
+  else
+    element.at_event(which.index, time);
   system_->jump(now, f, eta_jump, v_jump);
   eta_ += eta_jump;
   v_ += v_jump;

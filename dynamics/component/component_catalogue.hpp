@@ -27,7 +27,7 @@ inline constexpr std::array kComponentEffects{
                 "[[mount]]"},
     EffectEntry{"stops",
                 "N = k d^n (1 + chi d') (Hunt and Crossley 1975) with Coulomb friction; rigid: "
-                "u -> -e u (Pfeiffer and Glocker 1996)",
+                "u -> -e u, impacts together (Moreau 1988, Smith et al. 2012)",
                 "stiffness_n_m or restitution", "[[stop]]"},
     EffectEntry{
         "main bearings",

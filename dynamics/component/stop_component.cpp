@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <tuple>
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
@@ -34,9 +36,22 @@ std::unique_ptr<Stop> make_stop(const StopSpec& stop, ModelBuilder& model,
                     "which normal points",
                     stop.a.where, -gap / kMilli));
   auto made = std::make_unique<RigidStop>(stop.name, std::move(pair), *stop.restitution,
-                                          stop.rest_stiffness);
+                                          stop.rest_stiffness, stop.friction);
   rigid.push_back(made.get());
   return made;
+}
+
+std::tuple<std::string, std::string, std::array<double, 3>> place_of(const PointSpec& point) {
+  const Eigen::Vector3d at = point.at.value_or(Eigen::Vector3d::Zero());
+  return {point.body, point.set, {at.x(), at.y(), at.z()}};
+}
+
+bool comes_before(const StopSpec* one, const StopSpec* other) {
+  const auto place = [](const StopSpec& stop) {
+    return std::tuple(place_of(stop.a), place_of(stop.b),
+                      std::array{stop.normal.x(), stop.normal.y(), stop.normal.z()});
+  };
+  return place(*one) < place(*other);
 }
 
 }  // namespace
@@ -62,12 +77,13 @@ const Keys<StopSpec>& stop_keys() {
                    "of a compliant contact: force over depth^exponent")
             .shown_in("N/m^exponent");
         key.one_of({"stiffness_n_m", "restitution"});
-        key.all_need("stiffness_n_m", {}, "a rigid contact has neither depth nor friction", [&] {
+        key.all_need("stiffness_n_m", {}, "a rigid contact has no depth", [&] {
           key.number("exponent", stop.exponent, Range::between(1.0, 4.0), "of the depth");
           key.number("chi_s_m", stop.chi, Range::between(0.0, 1e9),
                      "damping by the rate of the depth: the force is times 1 + chi rate");
-          key.number("friction", stop.friction.kinetic, coefficient, "coefficient of friction");
         });
+        key.number("friction", stop.friction.kinetic, coefficient,
+                   "coefficient of friction, of impulses as well");
         key.number("static_friction", stop.static_friction, coefficient,
                    "coefficient before the point slides; that of friction without it")
             .needs("friction");
@@ -86,8 +102,13 @@ const Keys<StopSpec>& stop_keys() {
   return keys;
 }
 
+/// The order of the tables has no influence, not even on rounding: stops are added in that of their
+/// places.
 void StopComponent::add_elements(ModelBuilder& model) {
-  for (const StopSpec& stop : stops_) model.system.add_element(make_stop(stop, model, rigid_));
+  std::vector<const StopSpec*> ordered;
+  for (const StopSpec& stop : stops_) ordered.push_back(&stop);
+  std::stable_sort(ordered.begin(), ordered.end(), comes_before);
+  for (const StopSpec* stop : ordered) model.system.add_element(make_stop(*stop, model, rigid_));
 }
 
 std::vector<std::string> StopComponent::warnings() const {

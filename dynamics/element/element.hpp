@@ -36,12 +36,6 @@ struct Power {
   double input = 0;   // power from prescribed motion or supply [W]
 };
 
-/// What unit impulses on an element's coordinates change at once, n_e x n_e, column by impulse.
-struct Mobility {
-  Eigen::MatrixXd v;  // velocities [1/kg] and the like; of states: 0, their rates follow from y
-  Eigen::MatrixXd y;  // coordinates that are states, as angular momenta; of others: 0
-};
-
 /// A force between interface coordinates y of the bodies (see system.hpp).
 ///
 /// The order of calls in one step: begin_step; for each stage evaluate (as often as Newton needs),
@@ -87,11 +81,8 @@ class ForceElement {
   /// The function may not be negative, as the gap of a rigid contact: after its event it counts as
   /// positive whatever rounding left, so that a motion into the forbidden side is the next event.
   virtual bool is_one_sided(int /*index*/) const { return false; }
-  /// The event happens at this state. `impulse` (n_e, zero) may be set [N s], [N m s], on the
-  /// coordinates on which forces act; it changes y and v as `mobility` says.
-  virtual void at_event(int /*index*/, double /*time*/, const Eigen::VectorXd& /*y*/,
-                        const Eigen::VectorXd& /*v*/, const Mobility& /*mobility*/,
-                        Eigen::VectorXd& /*impulse*/) {}
+  /// The event happens now. That of an impact is not told: see rigid_contact.hpp.
+  virtual void at_event(int /*index*/, double /*time*/) {}
   /// Events of this function follow each other without end, as the impacts of a bouncing ball do.
   /// True when the element takes a mode in which they do not; false ends the run.
   virtual bool at_accumulation(int /*index*/) { return false; }

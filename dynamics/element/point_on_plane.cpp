@@ -82,18 +82,18 @@ void PointOnPlane::add_up(const Vector3d& force, const Matrix3X& by_force,
                     tangent.bottomRightCorner(n_b, n_b));
 }
 
-Matrix3d PointOnPlane::mobility(const Mobility& of) const {
-  // Velocities change by v at once; by y only through states, on which no position depends here.
-  MatrixXd on(of.v.rows(), 3);
-  VectorXd one;
-  for (int k = 0; k < 3; ++k) {
-    apply(Vector3d::Unit(k), one);
-    on.col(k) = one;
-  }
+Matrix3d PointOnPlane::axes() const {
+  Matrix3d axes;
+  const Vector3d tangent = plane_.unitOrthogonal();
+  axes << at_.normal, at_b_.rotation * tangent, at_b_.rotation * plane_.cross(tangent);
+  return axes;
+}
+
+void PointOnPlane::by_jumps(Matrix3X& by_y, Matrix3X& by_v) const {
   differentiate(0.0);
-  const Matrix3X by_y = velocity_;
+  by_y = velocity_;
   differentiate(1.0);
-  return by_y * (of.y * on) + (velocity_ - by_y) * (of.v * on);
+  by_v = velocity_ - by_y;
 }
 
 double PointOnPlane::input(const Vector3d& force) const {

@@ -44,8 +44,10 @@ class PointOnPlane {
   /// Tangent, n x n, by `force` and its derivative, 3 x n; after differentiate().
   void add_up(const Eigen::Vector3d& force, const Matrix3X& by_force,
               Eigen::MatrixXd& tangent) const;
-  /// Change of the velocity by unit impulses on a along x, y, z, 3 x 3 [1/kg].
-  Eigen::Matrix3d mobility(const Mobility& of) const;
+  /// Normal and two tangents, as columns; they turn with the plane.
+  Eigen::Matrix3d axes() const;
+  /// Change of `velocity` by changes of the coordinates' y and v that leave positions as they are.
+  void by_jumps(Matrix3X& by_y, Matrix3X& by_v) const;
   /// Power that drives put in against `force` on a [W].
   double input(const Eigen::Vector3d& force) const;
 

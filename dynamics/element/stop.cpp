@@ -17,13 +17,15 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kLiftHeight = 1e-6;  // a held point that is higher flies [m]
+/// Points that are no higher touch, so that those of one body that falls flat do so together [m].
+constexpr double kTouchHeight = 1e-9;
 /// The damper of a held point acts from this depth on; below, less in proportion [m].
 constexpr double kDampedDepth = 1e-9;
 
 }  // namespace
 
 Stop::Stop(const std::string& name, PointOnPlane pair, const FrictionLaw& friction)
-    : ForceElement(pair.coordinates()), pair_(std::move(pair)), name_(name), friction_(friction) {
+    : ForceElement(pair.coordinates()), pair_(std::move(pair)), friction_(friction), name_(name) {
   recorded_ = {history_name("gap"), history_name("force"), history_name("slip")};
 }
 
@@ -94,8 +96,8 @@ NormalForce CompliantStop::normal(double depth, double rate) const {
 }
 
 RigidStop::RigidStop(const std::string& name, PointOnPlane pair, double restitution,
-                     double rest_stiffness)
-    : Stop(name, std::move(pair), {}),
+                     double rest_stiffness, const FrictionLaw& friction)
+    : Stop(name, std::move(pair), friction),
       restitution_(restitution),
       stiffness_(rest_stiffness),
       impulse_name_(history_name("impulse")) {}
@@ -123,22 +125,28 @@ double RigidStop::event_function(int index, double time, const VectorXd& y,
   return held_ ? kLiftHeight - gap : gap;
 }
 
-void RigidStop::at_event(int index, double time, const VectorXd& y, const VectorXd& v,
-                         const Mobility& mobility, VectorXd& impulse) {
-  if (index == kLift) {
-    held_ = false;
-    return;
-  }
+void RigidStop::at_event(int, double) { held_ = false; }
+
+std::optional<Touch> RigidStop::touch(double time, const VectorXd& y, const VectorXd& v) const {
   const PlaneMotion& at = pair_.move(time, y, v);
-  const double inverse = at.normal.dot(pair_.mobility(mobility) * at.normal);
-  if (!(inverse > 0.0))
-    throw NumericsError(
-        fmt::format("time {:.9g} s: {}: an impact, but nothing there has inertia", time, name()));
-  mass_ = 1.0 / inverse;
-  if (at.rate >= 0.0) return;
-  const double size = -(1.0 + restitution_) * at.rate * mass_;
-  impulse_ += size;
-  pair_.apply(size * at.normal, impulse);
+  if (at.gap > kTouchHeight) return std::nullopt;
+  const Eigen::Matrix3d axes = pair_.axes();
+  Touch touch{{restitution_, friction_.kinetic, held_}, axes.transpose() * at.velocity, {}, {}, {}};
+  touch.impulses.resize(y.size(), 3);
+  VectorXd one;
+  for (int k = 0; k < 3; ++k) {
+    pair_.apply(axes.col(k), one);
+    touch.impulses.col(k) = one;
+  }
+  pair_.by_jumps(touch.by_y, touch.by_v);
+  touch.by_y = (axes.transpose() * touch.by_y).eval();
+  touch.by_v = (axes.transpose() * touch.by_v).eval();
+  return touch;
+}
+
+void RigidStop::take_impulse(double impulse, double mass) {
+  mass_ = mass;
+  impulse_ += impulse;
 }
 
 bool RigidStop::at_accumulation(int index) {

@@ -7,6 +7,7 @@
 
 #include "dynamics/element/element.hpp"
 #include "dynamics/element/point_on_plane.hpp"
+#include "dynamics/element/rigid_contact.hpp"
 
 namespace clatter::dynamics {
 
@@ -45,6 +46,7 @@ class Stop : public ForceElement {
   std::string history_name(const char* what) const;
 
   PointOnPlane pair_;
+  FrictionLaw friction_;
 
  private:
   struct Friction {
@@ -53,7 +55,6 @@ class Stop : public ForceElement {
   Friction friction(double slip) const;
 
   std::string name_;
-  FrictionLaw friction_;
   std::array<std::string, 3> recorded_;
   std::array<double, 3> last_{}, finished_{}, accepted_{};  // gap, force, slip
   double time_ = 0.0;
@@ -78,24 +79,27 @@ class CompliantStop : public Stop {
   double k_, n_, chi_;
 };
 
-/// A rigid contact without friction: an impact reverses the normal velocity u at once to -e u by an
-/// impulse along the normal, (1 + e) u over the inverse mass of the contact point (Newton's
-/// restitution; Pfeiffer and Glocker 1996). The energy (1 - e^2) u^2 / 2 times that mass is lost.
+/// A rigid contact: an impact changes velocities at once (impact_law.hpp). Alone and without
+/// friction it reverses the normal velocity u to -e u, and loses (1 - e^2) u^2 / 2 times the mass
+/// of the contact point.
 ///
 /// Where impacts accumulate the point is held: N = k d + c d', critically damped with the mass that
 /// the contact had, never below 0. It flies again when it has lifted by 1 um.
-class RigidStop : public Stop {
+class RigidStop : public Stop, public RigidContact {
  public:
   /// @param restitution e, 0 to 1. @param rest_stiffness k of the contact that holds it [N/m].
-  RigidStop(const std::string& name, PointOnPlane pair, double restitution, double rest_stiffness);
+  /// @param friction of impulses: its kinetic coefficient; while held as of a compliant stop.
+  RigidStop(const std::string& name, PointOnPlane pair, double restitution, double rest_stiffness,
+            const FrictionLaw& friction);
 
   int events() const override { return 2; }
   double event_function(int index, double time, const Eigen::VectorXd& y,
                         const Eigen::VectorXd& v) const override;
   bool is_one_sided(int) const override { return true; }
-  /// NumericsError when no body can take the impulse.
-  void at_event(int index, double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
-                const Mobility& mobility, Eigen::VectorXd& impulse) override;
+  void at_event(int index, double time) override;
+  std::optional<Touch> touch(double time, const Eigen::VectorXd& y,
+                             const Eigen::VectorXd& v) const override;
+  void take_impulse(double impulse, double mass) override;
   bool at_accumulation(int index) override;
   /// Also `<name>_impulse`: of all impacts so far [N s].
   void record(History& history) const override;
@@ -117,7 +121,7 @@ class RigidStop : public Stop {
   NormalForce normal(double depth, double rate) const override;
 
  private:
-  enum Index { kTouch, kLift };
+  static constexpr int kLift = kTouch + 1;
   double restitution_, stiffness_;
   bool held_ = false;
   double mass_ = 0.0;     // of the contact point along the normal, at the last impact [kg]

@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "dynamics/integrate/dirk.hpp"
+#include "dynamics/integrate/impact.hpp"
 #include "dynamics/integrate/predictor_corrector.hpp"
 
 namespace clatter::dynamics {
@@ -193,29 +194,39 @@ bool Integrator::find_event() {
   return !at_end;
 }
 
-/// The state has reached an event: the element changes its mode, impulses change velocities, and
-/// the rates become those of the new mode.
+/// Counts an event; true where events of its function follow each other too closely to go on.
+bool Integrator::accumulates(int element, int index) {
+  ++statistics_.events;
+  CloseEvents& close = close_events_[{element, index}];
+  close.count = now_.time - close.last <= kClose * options_.smallest ? close.count + 1 : 0;
+  close.last = now_.time;
+  if (close.count < kMostClose) return false;
+  if (!system_.element(element).at_accumulation(index))
+    throw NumericsError(fmt::format("time {:.9g} s: events of {} follow each other without end",
+                                    now_.time, system_.element(element).name()));
+  close.count = 0;
+  return true;
+}
+
+/// The impulses of an event, n_y; the elements that have part in it change their modes.
+VectorXd Integrator::impulses_at(const Event& event) {
+  ForceElement& element = system_.element(event.element);
+  if (event.index == RigidContact::kTouch && dynamic_cast<RigidContact*>(&element) != nullptr) {
+    Impact impact(system_, now_, event.element);
+    for (const int e : impact.closing())
+      if (accumulates(e, event.index)) impact.hold(e);
+    return impact.solve();
+  }
+  if (!accumulates(event.element, event.index)) element.at_event(event.index, now_.time);
+  return VectorXd::Zero(system_.interface_size());
+}
+
+/// The state has reached an event: elements change their modes, impulses change velocities, and the
+/// rates become those of the new mode.
 void Integrator::pass_event() {
   const Event event = *event_;
   event_.reset();
-  ForceElement& element = system_.element(event.element);
-  const auto& at = element.coordinates();
-  ++statistics_.events;
-  CloseEvents& close = close_events_[{event.element, event.index}];
-  close.count = now_.time - close.last <= kClose * options_.smallest ? close.count + 1 : 0;
-  close.last = now_.time;
-  VectorXd impulse = VectorXd::Zero(static_cast<Eigen::Index>(at.size()));
-  if (close.count < kMostClose) {
-    element.at_event(event.index, now_.time, gather(now_.y, at), gather(now_.v_y, at),
-                     system_.mobility(now_, at), impulse);
-  } else if (element.at_accumulation(event.index)) {
-    close.count = 0;
-  } else {
-    throw NumericsError(fmt::format("time {:.9g} s: events of {} follow each other without end",
-                                    now_.time, element.name()));
-  }
-  VectorXd f = VectorXd::Zero(system_.interface_size());
-  for (size_t i = 0; i < at.size(); ++i) f(at[i]) += impulse(static_cast<Eigen::Index>(i));
+  const VectorXd f = impulses_at(event);
   VectorXd eta_jump, v_jump;
   system_.jump(now_, f, eta_jump, v_jump);
   now_.eta += eta_jump;

@@ -125,6 +125,8 @@ class Integrator {
   std::unique_ptr<StageOperator> make_operator(double kappa);
   bool find_event();
   void pass_event();
+  bool accumulates(int element, int index);
+  Eigen::VectorXd impulses_at(const Event& event);
   void refresh_rates();
   void take_step(double dt, double time);
   void after_acceptance(double dt);

@@ -310,18 +310,6 @@ void System::jump(const StageState& state, const VectorXd& impulse, VectorXd& et
   }
 }
 
-Mobility System::mobility(const StageState& state, const std::vector<int>& coordinates) const {
-  const auto n = static_cast<Eigen::Index>(coordinates.size());
-  Mobility found{MatrixXd(n, n), MatrixXd(n, n)};
-  VectorXd eta, v;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    jump(state, VectorXd::Unit(interface_size(), coordinates[k]), eta, v);
-    found.y.col(k) = gather(interface(eta), coordinates);
-    found.v.col(k) = gather(interface(v), coordinates);
-  }
-  return found;
-}
-
 void System::load_force(double time, VectorXd& g) const {
   g.setZero(modes_);
   for (const auto& load : loads_) {

@@ -125,8 +125,6 @@ class System {
   /// that they share with its rotation. `eta`, `v`: the changes, N.
   void jump(const StageState& state, const Eigen::VectorXd& impulse, Eigen::VectorXd& eta,
             Eigen::VectorXd& v) const;
-  /// The same for unit impulses on some coordinates, of these coordinates.
-  Mobility mobility(const StageState& state, const std::vector<int>& coordinates) const;
   /// Modal force of all loads at `time` (N).
   void load_force(double time, Eigen::VectorXd& g) const;
 

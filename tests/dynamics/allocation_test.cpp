@@ -196,7 +196,7 @@ TEST_P(StepLoop, TakesNoMemoryWhileEventsAreLookedFor) {
   PointOnPlane pair(std::make_unique<PlanarPort>(ball, Eigen::Vector2d::Zero()),
                     std::make_unique<GroundPort>(Eigen::Vector3d::Zero()),
                     Eigen::Vector3d::UnitY());
-  system.add_element(std::make_unique<RigidStop>("stop", std::move(pair), 0.5, 1e8));
+  system.add_element(std::make_unique<RigidStop>("stop", std::move(pair), 0.5, 1e8, FrictionLaw{}));
   system.add_element(std::make_unique<PairElement>(
       "spring", std::make_unique<PlanarPort>(ball, Eigen::Vector2d::Zero()),
       std::make_unique<GroundPort>(Eigen::Vector3d(0.0, 0.02, 0.0)), linear_joint(1e3, 0.0)));

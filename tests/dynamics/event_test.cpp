@@ -34,10 +34,7 @@ class Gate : public ForceElement {
                         const Eigen::VectorXd&) const override {
     return level_ - y(0);
   }
-  void at_event(int, double time, const Eigen::VectorXd&, const Eigen::VectorXd&, const Mobility&,
-                Eigen::VectorXd&) override {
-    times.push_back(time);
-  }
+  void at_event(int, double time) override { times.push_back(time); }
   std::vector<double> times;
 
  private:

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/rom/reduced_model.hpp"
 #include "dynamics/body/modal_body.hpp"
 #include "dynamics/element/element.hpp"
+#include "dynamics/element/rigid_contact.hpp"
 #include "dynamics/integrate/dirk.hpp"
 #include "dynamics/integrate/system.hpp"
 
@@ -68,7 +70,7 @@ class Wall : public ForceElement {
 
 /// A rigid floor at y = 0 with Newton's coefficient of restitution. Where impacts accumulate it
 /// holds the body on a stiff spring.
-class Floor : public ForceElement {
+class Floor : public ForceElement, public RigidContact {
  public:
   Floor(int coordinate, double restitution, bool may_rest = true)
       : ForceElement({coordinate}), restitution_(restitution), may_rest_(may_rest) {}
@@ -85,11 +87,17 @@ class Floor : public ForceElement {
                         const Eigen::VectorXd&) const override {
     return resting_ ? 1.0 : y(0);
   }
-  void at_event(int, double time, const Eigen::VectorXd&, const Eigen::VectorXd& v,
-                const Mobility& mobility, Eigen::VectorXd& impulse) override {
-    impacts.push_back(time);
-    impulse(0) = -(1.0 + restitution_) * v(0) / mobility.v(0, 0);
+  std::optional<Touch> touch(double time, const Eigen::VectorXd& y,
+                             const Eigen::VectorXd& v) const override {
+    if (resting_ || y(0) > 1e-9) return std::nullopt;
+    time_ = time;
+    return Touch{{restitution_, 0.0, false},
+                 {v(0), 0.0, 0.0},
+                 Eigen::RowVector3d::UnitX(),
+                 Eigen::Vector3d::Zero(),
+                 Eigen::Vector3d::UnitX()};
   }
+  void take_impulse(double, double) override { impacts.push_back(time_); }
   bool at_accumulation(int) override { return resting_ = may_rest_; }
 
   std::vector<double> impacts;  // [s]
@@ -97,7 +105,15 @@ class Floor : public ForceElement {
  private:
   double restitution_;
   bool may_rest_, resting_ = false;
+  mutable double time_ = 0.0;  // of the last touch
 };
+
+/// Change of the velocity of a coordinate by a unit impulse on it, at a state [1/kg].
+inline double inverse_mass(const System& system, int y, const StageState& state = {}) {
+  Eigen::VectorXd eta, v;
+  system.jump(state, Eigen::VectorXd::Unit(system.interface_size(), y), eta, v);
+  return system.interface(v)(y);
+}
 
 inline Eigen::VectorXd vector(double value) { return Eigen::VectorXd::Constant(1, value); }
 

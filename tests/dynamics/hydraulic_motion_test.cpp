@@ -18,6 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+using Ball = CheckValveSpec::Ball;
 using testing::arbitrary;
 using testing::equal_steps;
 using testing::HydraulicRig;

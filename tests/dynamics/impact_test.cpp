@@ -36,10 +36,10 @@ StepOptions fine_steps() {
 class WatchedStop : public RigidStop {
  public:
   using RigidStop::RigidStop;
-  void at_event(int index, double time, const VectorXd& y, const VectorXd& v,
-                const Mobility& mobility, VectorXd& impulse) override {
-    if (look) look(time, y, v);
-    RigidStop::at_event(index, time, y, v, mobility, impulse);
+  std::optional<Touch> touch(double time, const VectorXd& y, const VectorXd& v) const override {
+    const auto found = RigidStop::touch(time, y, v);
+    if (found && look) look(time, y, v);
+    return found;
   }
   std::function<void(double, const VectorXd&, const VectorXd&)> look;
 };
@@ -60,7 +60,7 @@ WatchedStop* add_watched_stop(System& system, std::unique_ptr<Port> point, const
                               const Vector3d& normal, double restitution) {
   auto stop = std::make_unique<WatchedStop>(
       "wall", PointOnPlane(std::move(point), std::make_unique<GroundPort>(on_plane), normal),
-      restitution, 1e8);
+      restitution, 1e8, FrictionLaw{});
   WatchedStop* kept = stop.get();
   system.add_element(std::move(stop));
   return kept;

@@ -317,8 +317,8 @@ TEST_F(Stops, AreRefusedByKeyAndPlace) {
   expect(points + up + "restitution = 1.5\n", "stop[0].restitution: found 1.5, expected");
   expect(points + up + "restitution = 1\nstiffness_n_m = 1e6\n",
          "stop.run.toml:12: stop[0].restitution: stiffness_n_m and restitution exclude each other");
-  expect(points + up + "restitution = 1\nfriction = 0.1\n",
-         "stop[0].friction: needs stiffness_n_m: a rigid contact has neither depth nor friction");
+  expect(points + up + "restitution = 1\nexponent = 1.5\n",
+         "stop[0].exponent: needs stiffness_n_m: a rigid contact has no depth");
   expect(points + up + "stiffness_n_m = 1e6\nrest_stiffness_n_m = 1e6\n",
          "stop[0].rest_stiffness_n_m: needs restitution");
   expect(points + up + "stiffness_n_m = 1e6\nexponent = 0.5\n", "stop[0].exponent: found 0.5");

@@ -8,6 +8,7 @@
 
 #include "core/dense/complex.hpp"
 #include "core/dense/symmetric_eigen.hpp"
+#include "tests/dynamics/fixtures.hpp"
 
 namespace clatter::dynamics::testing {
 
@@ -70,7 +71,7 @@ SmallMotion small_motion(System& system, const VectorXd& y) {
   const MatrixXd K = -tangent(system, y, kLong);
   VectorXd root(y.size());
   for (Eigen::Index j = 0; j < y.size(); ++j)
-    root(j) = std::sqrt(system.mobility({}, {static_cast<int>(j)}).v(0, 0));
+    root(j) = std::sqrt(testing::inverse_mass(system, static_cast<int>(j)));
   const MatrixXd A = root.asDiagonal() * (0.5 * (K + K.transpose())) * root.asDiagonal();
   const dense::Eigenpairs solved = dense::symmetric_eigen(A);
   return {solved.values.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi),
