@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <tuple>
 
 #include "core/base/error.hpp"
@@ -45,6 +46,20 @@ std::tuple<std::string, std::string, std::array<double, 3>> place_of(const Point
   const Eigen::Vector3d at = point.at.value_or(Eigen::Vector3d::Zero());
   return {point.body, point.set, {at.x(), at.y(), at.z()}};
 }
+
+/// Of two elastic bodies that stick, over that along the normal: 2 (1 - nu) / (2 - nu) (Mindlin
+/// 1949).
+constexpr double kPlaneOverNormal = 0.8;
+
+double stick_stiffness(const StopSpec& stop) {
+  const double normal =
+      stop.restitution ? stop.rest_stiffness
+                       : stop.exponent * stop.stiffness * std::pow(kMicro, stop.exponent - 1.0);
+  return kPlaneOverNormal * normal;
+}
+
+/// Way of creep from which it is told [m].
+constexpr double kToldCreep = 1e-6;
 
 bool comes_before(const StopSpec* one, const StopSpec* other) {
   const auto place = [](const StopSpec& stop) {
@@ -87,12 +102,23 @@ const Keys<StopSpec>& stop_keys() {
         key.number("static_friction", stop.static_friction, coefficient,
                    "coefficient before the point slides; that of friction without it")
             .needs("friction");
-        key.number("slip_speed_m_s", stop.friction.slip_speed, Range::between(1e-9, 1e3),
-                   "speed of creep at which friction is that before sliding")
+        key.number("stick_stiffness_n_m", stop.stick_stiffness, stiffness,
+                   "in the plane, of a point that sticks; without it 0.8 times that along the "
+                   "normal (of an exponent above 1 at a depth of 1 um), as of two elastic bodies")
             .needs("friction");
+        key.number("stick_damping_us", stop.friction.damping_time, Range::between(0.01, 1e9),
+                   "damping of a point that sticks, over its stiffness")
+            .needs("friction");
+        key.number("slip_speed_m_s", stop.friction.slip_speed, Range::between(1e-9, 1e3),
+                   "the point does not stick: it creeps below its limit of friction, and reaches "
+                   "the limit at this speed")
+            .needs("friction")
+            .excludes("stick_stiffness_n_m")
+            .excludes("stick_damping_us");
         key.check([](const Config& table, StopSpec& found) {
           FrictionLaw& law = found.friction;
           law.at_rest = found.static_friction.value_or(law.kinetic);
+          law.stiffness = found.stick_stiffness.value_or(stick_stiffness(found));
           if (law.at_rest < law.kinetic)
             table.fail("static_friction",
                        fmt::format("found {:g}, expected at least friction, {:g}", law.at_rest,
@@ -108,7 +134,11 @@ void StopComponent::add_elements(ModelBuilder& model) {
   std::vector<const StopSpec*> ordered;
   for (const StopSpec& stop : stops_) ordered.push_back(&stop);
   std::stable_sort(ordered.begin(), ordered.end(), comes_before);
-  for (const StopSpec* stop : ordered) model.system.add_element(make_stop(*stop, model, rigid_));
+  for (const StopSpec* stop : ordered) {
+    auto made = make_stop(*stop, model, rigid_);
+    made_.push_back(made.get());
+    model.system.add_element(std::move(made));
+  }
 }
 
 std::vector<std::string> StopComponent::warnings() const {
@@ -121,6 +151,12 @@ std::vector<std::string> StopComponent::warnings() const {
         "plane: set a higher one, or a compliant contact by stiffness_n_m",
         stop->name(), stop->rest_stiffness(), stop->deepest() / kMicro));
   }
+  for (const Stop* stop : made_)
+    if (stop->crept() > kToldCreep)
+      found.push_back(fmt::format(
+          "{}: it crept by {:.3g} um while its friction was below the limit, by slip_speed_m_s: "
+          "without this key it sticks",
+          stop->name(), stop->crept() / kMicro));
   return found;
 }
 

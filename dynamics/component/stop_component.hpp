@@ -23,6 +23,7 @@ struct StopSpec {
   double exponent = 1.0, chi = 0.0;  // [1], [s/m]
   FrictionLaw friction;
   std::optional<double> static_friction;  // of it; else its kinetic one
+  std::optional<double> stick_stiffness;  // of it; else by the stiffness along the normal [N/m]
 };
 const Keys<StopSpec>& stop_keys();
 
@@ -37,12 +38,14 @@ class StopComponent : public Component {
   /// behind the plane at the start.
   void add_elements(ModelBuilder& model) override;
   void add_effects(const ModelBuilder& model, EffectTable& effects) const override;
-  /// Rigid contacts that were held too softly.
+  /// Rigid contacts that were held too softly, and contacts that crept.
   std::vector<std::string> warnings() const override;
 
  private:
   std::vector<StopSpec> stops_;
-  std::vector<const RigidStop*> rigid_;  // of this copy's model
+  // Of this copy's model.
+  std::vector<const Stop*> made_;
+  std::vector<const RigidStop*> rigid_;
 };
 
 ComponentList read_stops(const Config& root);

@@ -45,20 +45,19 @@ void PointOnPlane::apply(const Vector3d& force, VectorXd& on) const {
 
 void PointOnPlane::differentiate(double per_kappa) const {
   const int n_a = a_->size(), n_b = b_->size(), n = n_a + n_b;
-  for (Matrix3X* matrix : {&distance_, &velocity_, &normal_}) matrix->setZero(3, n);
+  for (Matrix3X* matrix : {&distance_, &velocity_, &turn_, &normal_}) matrix->setZero(3, n);
   distance_.leftCols(n_a) = at_a_.by_y.topRows<3>();
   distance_.rightCols(n_b) = -at_b_.by_y.topRows<3>();
   velocity_.leftCols(n_a) = at_a_.rate_by_y.topRows<3>() + per_kappa * at_a_.rate_by_v.topRows<3>();
   velocity_.rightCols(n_b) =
       -at_b_.rate_by_y.topRows<3>() - per_kappa * at_b_.rate_by_v.topRows<3>();
+  turn_.rightCols(n_b) = at_b_.by_y.bottomRows<3>();
   const Matrix3d arm = skew(at_.distance), spin = skew(at_b_.spin), across = skew(at_.normal);
   for (int j = 0; j < n; ++j) velocity_.col(j) -= spin * distance_.col(j);
-  for (int j = 0; j < n_b; ++j) {
-    const Vector3d turn = at_b_.by_y.col(j).tail<3>();
+  for (int j = 0; j < n_b; ++j)
     velocity_.col(n_a + j) +=
         arm * (at_b_.rate_by_y.col(j).tail<3>() + per_kappa * at_b_.rate_by_v.col(j).tail<3>());
-    normal_.col(n_a + j) = -across * turn;
-  }
+  normal_.noalias() = -across * turn_;
   gap_.noalias() = at_.normal.transpose() * distance_;
   gap_.noalias() += at_.distance.transpose() * normal_;
   rate_.noalias() = at_.normal.transpose() * velocity_;

@@ -39,6 +39,7 @@ class PointOnPlane {
   void differentiate(double per_kappa) const;
   const Matrix3X& by_velocity() const { return velocity_; }    // 3 x n
   const Matrix3X& by_normal() const { return normal_; }        // 3 x n
+  const Matrix3X& by_turn() const { return turn_; }            // 3 x n, of a turn of the plane
   const Eigen::RowVectorXd& by_gap() const { return gap_; }    // n
   const Eigen::RowVectorXd& by_rate() const { return rate_; }  // n
   /// Tangent, n x n, by `force` and its derivative, 3 x n; after differentiate().
@@ -58,7 +59,7 @@ class PointOnPlane {
   mutable PortState at_a_, at_b_;
   mutable PlaneMotion at_;
   mutable Eigen::VectorXd y_a_, y_b_, v_a_, v_b_;
-  mutable Matrix3X distance_, velocity_, normal_;
+  mutable Matrix3X distance_, velocity_, turn_, normal_;
   mutable Eigen::RowVectorXd gap_, rate_;
   mutable Matrix6X on_b_;
 };

@@ -11,6 +11,8 @@
 
 namespace clatter::dynamics {
 
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -27,6 +29,9 @@ constexpr double kDampedDepth = 1e-9;
 Stop::Stop(const std::string& name, PointOnPlane pair, const FrictionLaw& friction)
     : ForceElement(pair.coordinates()), pair_(std::move(pair)), friction_(friction), name_(name) {
   recorded_ = {history_name("gap"), history_name("force"), history_name("slip")};
+  if (friction.at_rest > 0.0 && !friction.slip_speed)
+    bristle_.emplace(friction.stiffness, friction.damping_time * friction.stiffness,
+                     friction.kinetic, friction.at_rest);
 }
 
 std::string Stop::history_name(const char* what) const {
@@ -35,14 +40,25 @@ std::string Stop::history_name(const char* what) const {
   return name;
 }
 
-Stop::Friction Stop::friction(double slip) const {
-  const double v = friction_.slip_speed, x = slip / v;
+Vector2d Stop::slip(const PlaneMotion& at) const {
+  return pair_.axes().rightCols<2>().transpose() * at.slip;
+}
+
+Bristle::Force Stop::friction(const Stage& stage, const Vector2d& slip, double normal) {
+  if (friction_.at_rest == 0.0) return {Vector2d::Zero(), Matrix2d::Zero(), Vector2d::Zero()};
+  if (bristle_) return bristle_->evaluate(stage, slip, normal);
+  // mu / |slip|, and its derivative by |slip| over |slip|.
+  const double v = *friction_.slip_speed, speed = slip.norm(), x = speed / v;
   const double top = friction_.at_rest, low = friction_.kinetic;
-  if (x < 1.0) return {top * (1.5 - 0.5 * x * x) / v, -top / (v * v * v)};
-  const double s = std::min(x - 1.0, 1.0);
-  const double mu = top + (low - top) * s * s * (3.0 - 2.0 * s);
-  const double slope = (low - top) * 6.0 * s * (1.0 - s) / v;
-  return {mu / slip, (slope - mu / slip) / (slip * slip)};
+  double factor = top * (1.5 - 0.5 * x * x) / v, slope = -top / (v * v * v);
+  if (x >= 1.0) {
+    const double s = std::min(x - 1.0, 1.0);
+    factor = (top + (low - top) * s * s * (3.0 - 2.0 * s)) / speed;
+    slope = ((low - top) * 6.0 * s * (1.0 - s) / v - factor) / (speed * speed);
+  }
+  return {normal * factor * slip,
+          normal * (factor * Matrix2d::Identity() + slope * slip * slip.transpose()),
+          factor * slip};
 }
 
 void Stop::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v, bool with_tangent,
@@ -50,29 +66,61 @@ void Stop::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v, bo
   time_ = stage.time;
   const PlaneMotion& at = pair_.move(time_, y, v);
   const NormalForce law = normal(std::max(-at.gap, 0.0), -at.rate);
-  const double slip = at.slip.norm();
-  last_ = {at.gap, law.force, slip};
-  const Friction against = friction(slip);
-  const Vector3d force = law.force * (at.normal - against.factor * at.slip);
+  const Vector2d slip = this->slip(at);
+  last_ = {at.gap, law.force, slip.norm()};
+  const Bristle::Force against = friction(stage, slip, law.force);
+  against_ = against.value;
+  const Eigen::Matrix<double, 3, 2> tangents = pair_.axes().rightCols<2>();
+  const Vector3d in_plane = tangents * against_;
+  const Vector3d force = law.force * at.normal - in_plane;
   pair_.apply(force, response.force);
   if (!with_tangent) return;
   pair_.differentiate(1.0 / stage.kappa);
   by_normal_ = -law.by_depth * pair_.by_gap() - law.by_rate * pair_.by_rate();
-  by_slip_ = pair_.by_velocity() - at.rate * pair_.by_normal();
-  by_slip_.noalias() -= at.normal * pair_.by_rate();
-  by_force_ = law.force * (pair_.by_normal() - against.factor * by_slip_);
-  by_force_.noalias() += (at.normal - against.factor * at.slip) * by_normal_;
-  const Eigen::Matrix3d stretch = law.force * against.slope * at.slip * at.slip.transpose();
-  by_force_.noalias() -= stretch * by_slip_;
+  by_slip_.noalias() = tangents.transpose() * pair_.by_velocity();
+  const Eigen::Matrix<double, 2, 3> turned = tangents.transpose() * skew(at.velocity);
+  by_slip_.noalias() += turned * pair_.by_turn();
+  by_against_.noalias() = against.by_slip * by_slip_;
+  by_against_.noalias() += against.by_normal * by_normal_;
+  by_force_ = law.force * pair_.by_normal();
+  by_force_.noalias() += at.normal * by_normal_;
+  by_force_.noalias() -= tangents * by_against_;
+  const Eigen::Matrix3d across = skew(in_plane);
+  by_force_.noalias() += across * pair_.by_turn();
   pair_.add_up(force, by_force_, response.tangent);
+}
+
+void Stop::finish_stage(const Stage& stage) {
+  finished_ = last_;
+  if (bristle_) bristle_->finish_stage(stage);
+}
+
+void Stop::accept_step(double time) {
+  accepted_ = finished_;
+  if (bristle_)
+    bristle_->accept_step();
+  else if (friction_.slip_speed && accepted_[1] > 0.0 && accepted_[2] < *friction_.slip_speed)
+    crept_ += accepted_[2] * (time - accepted_time_);
+  accepted_time_ = time;
 }
 
 Power Stop::power(const VectorXd& y, const VectorXd& v) const {
   const PlaneMotion& at = pair_.move(time_, y, v);
   const NormalForce law = normal(std::max(-at.gap, 0.0), -at.rate);
-  const double factor = law.force * friction(at.slip.norm()).factor;
-  return {law.stored, law.lost + factor * at.slip.squaredNorm(),
-          pair_.input(law.force * at.normal - factor * at.slip)};
+  const Vector2d slip = this->slip(at);
+  return {law.stored + (bristle_ ? bristle_->stored() : 0.0),
+          law.lost + (bristle_ ? bristle_->lost(slip) : against_.dot(slip)),
+          pair_.input(law.force * at.normal - pair_.axes().rightCols<2>() * against_)};
+}
+
+std::vector<double> Stop::save() const {
+  return bristle_ ? bristle_->save() : std::vector<double>{};
+}
+
+void Stop::restore(const std::vector<double>& state) {
+  if (state.size() != (bristle_ ? 5U : 0U))
+    throw InputError(name() + ": the saved state belongs to another scene");
+  if (bristle_) bristle_->restore(state);
 }
 
 void Stop::record(History& history) const {
@@ -161,13 +209,18 @@ void RigidStop::record(History& history) const {
   history.put(impulse_name_, "N s", impulse_);
 }
 
-std::vector<double> RigidStop::save() const { return {held_ ? 1.0 : 0.0, mass_, impulse_}; }
+std::vector<double> RigidStop::save() const {
+  std::vector<double> state{held_ ? 1.0 : 0.0, mass_, impulse_};
+  for (const double value : Stop::save()) state.push_back(value);
+  return state;
+}
 
 void RigidStop::restore(const std::vector<double>& state) {
-  if (state.size() != 3) throw InputError(name() + ": the saved state belongs to another scene");
+  if (state.size() < 3) throw InputError(name() + ": the saved state belongs to another scene");
   held_ = state[0] != 0.0;
   mass_ = state[1];
   impulse_ = state[2];
+  Stop::restore({state.begin() + 3, state.end()});
 }
 
 }  // namespace clatter::dynamics

@@ -3,11 +3,13 @@
 // Contact of a point of one body with a plane of another.
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 
 #include "dynamics/element/element.hpp"
 #include "dynamics/element/point_on_plane.hpp"
 #include "dynamics/element/rigid_contact.hpp"
+#include "dynamics/law/bristle.hpp"
 
 namespace clatter::dynamics {
 
@@ -17,12 +19,14 @@ struct NormalForce {
   double stored = 0.0, lost = 0.0;                    // [J], [W]
 };
 
-/// Coulomb friction mu N against slip, smooth: mu grows as static (3 x - x^3) / 2 up to its largest
-/// value at x = |slip| / slip_speed = 1, falls to `kinetic` at x = 2 by a cubic, and stays. Below
-/// its limit it creeps, x < 1.
+/// Coulomb friction mu N against slip. Below its limit a contact sticks (bristle.hpp). One with a
+/// slip speed creeps: mu grows as at_rest (3 x - x^3) / 2 up to its largest value at
+/// x = |slip| / slip_speed = 1, falls to `kinetic` at x = 2 by a cubic, and stays.
 struct FrictionLaw {
   double kinetic = 0.0, at_rest = 0.0;  // coefficients; at_rest >= kinetic
-  double slip_speed = 1e-3;             // [m/s]
+  std::optional<double> slip_speed;     // [m/s]
+  double stiffness = 1e8;               // in the plane [N/m]
+  double damping_time = 1e-4;           // damping in the plane over stiffness [s]
 };
 
 /// Records `<name>_gap` [m], `<name>_force`, the normal force [N], and with friction `<name>_slip`
@@ -32,12 +36,16 @@ class Stop : public ForceElement {
   std::string name() const override { return name_; }
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, Response& response) override;
-  void finish_stage(const Stage&) override { finished_ = last_; }
-  void accept_step(double) override { accepted_ = finished_; }
+  void finish_stage(const Stage& stage) override;
+  void accept_step(double time) override;
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
   void record(History& history) const override;
   double gap() const { return accepted_[0]; }           // [m]
   double normal_force() const { return accepted_[1]; }  // [N]
+  /// The way that the contact crept below its limit, so far [m].
+  double crept() const { return crept_; }
+  std::vector<double> save() const override;
+  void restore(const std::vector<double>& state) override;
 
  protected:
   Stop(const std::string& name, PointOnPlane pair, const FrictionLaw& friction);
@@ -49,17 +57,19 @@ class Stop : public ForceElement {
   FrictionLaw friction_;
 
  private:
-  struct Friction {
-    double factor, slope;  // friction = - factor N slip; d factor / d|slip| / |slip|
-  };
-  Friction friction(double slip) const;
+  Eigen::Vector2d slip(const PlaneMotion& at) const;
+  /// Friction against the slip, in the plane's two tangents, at a normal force.
+  Bristle::Force friction(const Stage& stage, const Eigen::Vector2d& slip, double normal);
 
   std::string name_;
   std::array<std::string, 3> recorded_;
   std::array<double, 3> last_{}, finished_{}, accepted_{};  // gap, force, slip
-  double time_ = 0.0;
+  double time_ = 0.0, accepted_time_ = 0.0, crept_ = 0.0;
+  std::optional<Bristle> bristle_;
+  Eigen::Vector2d against_ = Eigen::Vector2d::Zero();  // friction of the last evaluation [N]
   Eigen::RowVectorXd by_normal_;
-  Matrix3X by_slip_, by_force_;
+  Eigen::Matrix2Xd by_slip_, by_against_;
+  Matrix3X by_force_;
 };
 
 /// N = k d^n (1 + chi d'), never below 0: for n = 3/2 Hertz with the damping of Hunt and Crossley

@@ -288,16 +288,20 @@ struct Pair {
 
 TEST(Stop, TangentsAreTheDifferenceQuotientsOfTheForces) {
   const Pair bodies;
-  // Slip below, between and above the two speeds at which the law of friction changes.
+  // Slip below, between and above the two speeds at which the coefficient changes; creeping,
+  // sticking, and sliding on the same spring.
   for (const double slip_speed : {1e2, 4.0, 1e-1})
-    for (const double exponent : {1.0, 1.5}) {
-      CompliantStop stop("stop", bodies.pair(), 3.0, exponent, 0.02, {0.3, 0.5, slip_speed});
-      Response at;
-      stop.evaluate({0.1, 0.03, 1, {0.03}}, bodies.y, bodies.v, false, at);
-      ASSERT_GT(at.force.norm(), 0.1);
-      EXPECT_LT(testing::tangent_error(stop, bodies.y, bodies.v), 1e-7)
-          << slip_speed << " " << exponent;
-    }
+    for (const double exponent : {1.0, 1.5})
+      for (const double stiffness : {0.0, 0.1, 100.0}) {
+        FrictionLaw friction{0.3, 0.5, slip_speed, stiffness, 0.01};
+        if (stiffness > 0.0) friction.slip_speed.reset();
+        CompliantStop stop("stop", bodies.pair(), 3.0, exponent, 0.02, friction);
+        Response at;
+        stop.evaluate({0.1, 0.03, 1, {0.03}}, bodies.y, bodies.v, false, at);
+        ASSERT_GT(at.force.norm(), 0.1);
+        EXPECT_LT(testing::tangent_error(stop, bodies.y, bodies.v), 1e-7)
+            << slip_speed << " " << exponent << " " << stiffness;
+      }
 }
 
 TEST(Stop, ForcesAndMomentsBalance) {
