@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace clatter::dynamics {
 
 JournalMotion BearingLaw::journal(const PairMotion& motion) const {
@@ -59,6 +61,24 @@ PairForce RadialBearing::force(const Stage&, const PairMotion& motion, bool) {
   pair.stored += radial_energy(law_, e);
   pair.lost += law.damping * at.velocity.squaredNorm();
   return pair;
+}
+
+PairForce CoefficientBearing::force(const Stage&, const PairMotion& motion, bool) {
+  const JournalMotion at = journal(motion);
+  const double speed = std::abs(at.spin), sign = at.spin < 0.0 ? -1.0 : 1.0;
+  FilmForce film{Eigen::Vector3d::Zero(), Eigen::Matrix<double, 3, 5>::Zero()};
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) {
+      const Spline &k = coefficients_.stiffness[2 * i + j], &c = coefficients_.damping[2 * i + j];
+      film.by_motion(i, j) = -k(speed);
+      film.by_motion(i, 2 + j) = -c(speed);
+      film.value(i) -= k(speed) * at.offset(j) + c(speed) * at.velocity(j);
+      film.by_motion(i, 4) -=
+          sign * (k.slope(speed) * at.offset(j) + c.slope(speed) * at.velocity(j));
+    }
+  PairForce law = with_thrust(motion, film);
+  law.lost -= film.value.head<2>().dot(at.velocity);
+  return law;
 }
 
 PairForce FilmedBearing::force(const Stage& stage, const PairMotion& motion,

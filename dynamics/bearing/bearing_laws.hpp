@@ -4,9 +4,11 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "dynamics/bearing/bearing_film.hpp"
 #include "dynamics/bearing/shaft_axes.hpp"
+#include "dynamics/given/spline.hpp"
 #include "dynamics/law/pair_law.hpp"
 #include "dynamics/law/radial_table.hpp"
 
@@ -56,6 +58,23 @@ class RadialBearing : public BearingLaw {
  private:
   RadialForce law_;
   double largest_;
+};
+
+/// Stiffnesses and damping across the axis, 11, 12, 21, 22 along the shaft's first and second axis,
+/// over the speed of the journal; beyond the table as at its ends.
+struct BearingCoefficients {
+  std::vector<Spline> stiffness, damping;  // 4 each; [N/m], [N s/m], over [rad/s]
+};
+
+/// F = - K d - C d' of such coefficients. All power that it takes is lost, below 0 where it drives.
+class CoefficientBearing : public BearingLaw {
+ public:
+  CoefficientBearing(const BearingPlace& place, BearingCoefficients coefficients)
+      : BearingLaw(place), coefficients_(std::move(coefficients)) {}
+  PairForce force(const Stage& stage, const PairMotion& motion, bool with_derivatives) override;
+
+ private:
+  BearingCoefficients coefficients_;
 };
 
 /// A plain bearing with an oil film. All power that it takes is lost.

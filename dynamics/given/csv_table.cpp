@@ -38,6 +38,8 @@ const std::map<std::string, Unit>& units() {
                                                  {"N", {"N", 1.0}},
                                                  {"kN", {"N", 1e3}},
                                                  {"N m", {"N m", 1.0}},
+                                                 {"N/m", {"N/m", 1.0}},
+                                                 {"N/mm", {"N/m", 1e3}},
                                                  {"N s/m", {"N s/m", 1.0}},
                                                  {"N s/mm", {"N s/m", 1e3}},
                                                  {"m", {"m", 1.0}},

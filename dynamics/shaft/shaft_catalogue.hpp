@@ -17,8 +17,11 @@ inline constexpr std::array kShaftEffects{
     EffectEntry{"gyroscopic moments of a shaft", "I_p a' (t' x w) (Genta 2005, chapter 2)",
                 "polar_kg_m2", "shaft.model = \"full\""},
     EffectEntry{"bearings of a shaft",
-                "impedances (Butenschoen 1976; Childs, Moes and van Leeuwen 1977) or linear",
+                "impedances (Butenschoen 1976; Childs, Moes and van Leeuwen 1977), a spring, or "
+                "F = -K(a') d - C(a') d'",
                 "[[shaft.bearing]]", "[[shaft.bearing]] with shaft.model = \"full\""},
+    EffectEntry{"unbalance of a disc", "F = -(U a' t)', with its moment on the angle (Lagrange)",
+                "unbalance_g_mm, unbalance_deg", "[[shaft.disc]] with unbalance_g_mm"},
     EffectEntry{"phaser", "M = k <|a| - play> + c a' between disc and shaft",
                 "[shaft.disc.phaser]: stiffness_n_m_rad, damping, backlash_deg",
                 "[shaft.disc.phaser] with shaft.model not \"rigid\""},

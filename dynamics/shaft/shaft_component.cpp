@@ -123,8 +123,14 @@ void ShaftComponent::add_effects(const ModelBuilder&, EffectTable& effects) cons
   if (!spec_.bearings.empty())
     add(find_effect(kShaftEffects, "bearings of a shaft"), "bearings", bends,
         bends ? "[[shaft.bearing]]" : "model: the axis is fixed", "bearing");
-  bool phaser = false;
-  for (const ShaftDiscSpec& disc : spec_.discs) phaser = phaser || disc.phaser;
+  bool phaser = false, unbalance = false;
+  for (const ShaftDiscSpec& disc : spec_.discs) {
+    phaser = phaser || disc.phaser;
+    unbalance = unbalance || disc.unbalance > 0.0;
+  }
+  if (unbalance)
+    add(find_effect(kShaftEffects, "unbalance of a disc"), "unbalance", true, "disc.unbalance_g_mm",
+        "unbalance");
   if (phaser)
     add(find_effect(kShaftEffects, "phaser"), "phaser", !rigid,
         rigid ? "model = rigid" : "disc.phaser", "phaser");

@@ -11,6 +11,7 @@
 #include "dynamics/bearing/bearing_laws.hpp"
 #include "dynamics/element/pair_element.hpp"
 #include "dynamics/shaft/disc_gyroscope.hpp"
+#include "dynamics/shaft/disc_unbalance.hpp"
 #include "dynamics/shaft/shaft_beam.hpp"
 
 namespace clatter::dynamics {
@@ -68,6 +69,19 @@ void add_gyroscopes(const ShaftSpec& shaft, const ShaftBodies& bodies, System& s
   }
 }
 
+void add_unbalances(const ShaftSpec& shaft, const ShaftBodies& bodies, System& system) {
+  for (size_t d = 0; d < shaft.discs.size(); ++d) {
+    const ShaftDiscSpec& disc = shaft.discs[d];
+    if (disc.unbalance == 0.0) continue;
+    const int body = bodies.body[station_of_disc(bodies.stations, d)];
+    const std::vector<BodyDof> dofs{
+        {body, shaft.axes.first()}, {body, shaft.axes.second()}, bodies.disc_angle(shaft, d)};
+    system.add_element(std::make_unique<DiscUnbalance>(
+        fmt::format("unbalance {} {}", shaft.name, disc.name), in_system(system, dofs),
+        disc.unbalance, disc.phase, shaft.start.angle, shaft.start.speed));
+  }
+}
+
 void add_phasers(const ShaftSpec& shaft, const ShaftBodies& bodies, System& system) {
   for (size_t d = 0; d < shaft.discs.size(); ++d) {
     if (bodies.wheel[d] < 0) continue;
@@ -102,6 +116,8 @@ void add_bearing(const ShaftSpec& shaft, const ShaftBodies& bodies, size_t index
   std::unique_ptr<PairLaw> law;
   if (spec.film) {
     law = std::make_unique<ImpedanceBearing>(place, BearingFilm(spec.size, *spec.film));
+  } else if (spec.coefficients) {
+    law = std::make_unique<CoefficientBearing>(place, *spec.coefficients);
   } else {
     law = std::make_unique<RadialBearing>(place,
                                           RadialLaw{0.0, spec.stiffness, 0.0, 1.0, spec.damping});
@@ -145,6 +161,7 @@ void add_shaft_elements(const ShaftSpec& shaft, const ShaftBodies& bodies, Model
   add_phasers(shaft, bodies, model.system);
   if (!bodies.bends) return;
   add_gyroscopes(shaft, bodies, model.system);
+  add_unbalances(shaft, bodies, model.system);
   for (size_t b = 0; b < shaft.bearings.size(); ++b) add_bearing(shaft, bodies, b, model);
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 // What a scene says of a shaft.
 #include <Eigen/Core>
+#include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,8 +23,9 @@ struct ShaftDiscSpec {
   std::string name;
   double at = 0.0;  // along the axis [m]
   DiscInertia inertia;
-  std::optional<double> diametral;   // of it as given; else half of the polar one [kg m2]
-  std::optional<TorsionLaw> phaser;  // it turns on the shaft
+  std::optional<double> diametral;      // of it as given; else half of the polar one [kg m2]
+  double unbalance = 0.0, phase = 0.0;  // U [kg m], and its angle on the disc [rad]
+  std::optional<TorsionLaw> phaser;     // it turns on the shaft
 };
 
 /// One [[shaft.bearing]].
@@ -30,11 +33,15 @@ struct ShaftBearingSpec {
   std::string name;
   double at = 0.0;  // along the axis [m]
   PointSpec on;     // of the housing; without body: the ground
-  enum class Model : char { kButenschoen, kMoes, kLinear };
+  enum class Model : char { kButenschoen, kMoes, kLinear, kCoefficients };
   Model model = Model::kButenschoen;
   std::optional<BearingModel> film;  // else linear
   BearingSize size;
   double stiffness = 0.0, damping = 0.0;  // linear [N/m], [N s/m]
+  // Of coefficients: 11, 12, 21, 22 [N/m], [N s/m], or a table of them over the speed.
+  std::array<double, 4> stiffnesses{}, dampings{};
+  std::filesystem::path table;
+  std::optional<BearingCoefficients> coefficients;  // both as they are read
   ThrustLaw thrust;
 };
 

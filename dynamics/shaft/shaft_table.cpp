@@ -8,6 +8,7 @@
 #include "core/base/units.hpp"
 #include "dynamics/component/component_keys.hpp"
 #include "dynamics/component/drive_component.hpp"
+#include "dynamics/given/csv_table.hpp"
 #include "dynamics/shaft/shaft_spec.hpp"
 
 namespace clatter::dynamics {
@@ -58,6 +59,12 @@ const Keys<ShaftDiscSpec>& disc_keys() {
         key.number("polar_kg_m2", disc.inertia.polar, kMoment, "moment of inertia about the axis");
         key.number("diametral_kg_m2", disc.diametral, kMoment,
                    "moment of inertia across the axis; half of polar_kg_m2 without it");
+        key.number(
+            "unbalance_g_mm", disc.unbalance, Range::between(0.0, 1e12),
+            "mass times the distance of its centre from the axis; gravity has no moment on it");
+        key.number("unbalance_deg", disc.phase, kAngleDeg,
+                   "where it is, from the shaft's first axis where the angle is 0")
+            .needs("unbalance_g_mm");
         key.table("phaser", disc.phaser, phaser_keys());
         key.check([](const Config& table, ShaftDiscSpec& found) {
           found.inertia.diametral = found.diametral.value_or(0.5 * found.inertia.polar);
@@ -69,9 +76,44 @@ const Keys<ShaftDiscSpec>& disc_keys() {
   return keys;
 }
 
+BearingCoefficients constant_coefficients(const ShaftBearingSpec& bearing) {
+  BearingCoefficients found;
+  for (const double k : bearing.stiffnesses)
+    found.stiffness.emplace_back(Spline::Kind::kLinear, std::vector{0.0}, std::vector{k});
+  for (const double c : bearing.dampings)
+    found.damping.emplace_back(Spline::Kind::kLinear, std::vector{0.0}, std::vector{c});
+  return found;
+}
+
+Spline read_coefficient(const std::filesystem::path& path, const std::string& column,
+                        const std::string& unit) {
+  CsvColumns csv = read_csv(path, column);
+  if (csv.abscissa_unit != "rad/s" || csv.unit != unit)
+    throw InputError(fmt::format(
+        "{}:{}: found {} in [{}] over [{}], expected units of [{}] over a speed, [rpm]",
+        path.string(), csv.lines.front() - 1, csv.name, csv.unit, csv.abscissa_unit, unit));
+  return {Spline::Kind::kMonotoneCubic, std::move(csv.x), std::move(csv.y)};
+}
+
+BearingCoefficients read_coefficients(const std::filesystem::path& path) {
+  BearingCoefficients found;
+  for (const char* place : {"11", "12", "21", "22"}) {
+    found.stiffness.push_back(read_coefficient(path, fmt::format("k{}", place), "N/m"));
+    found.damping.push_back(read_coefficient(path, fmt::format("c{}", place), "N s/m"));
+  }
+  return found;
+}
+
 void check_shaft_bearing(const Config& table, ShaftBearingSpec& bearing) {
   using Model = ShaftBearingSpec::Model;
   if (bearing.model == Model::kLinear) return;
+  if (bearing.model == Model::kCoefficients) {
+    if (bearing.table.empty() && !table.has("stiffness_matrix_n_m"))
+      table.fail("model", "found \"coefficients\" alone, expected stiffness_matrix_n_m or table");
+    bearing.coefficients =
+        bearing.table.empty() ? constant_coefficients(bearing) : read_coefficients(bearing.table);
+    return;
+  }
   bearing.film = bearing.model == Model::kMoes ? BearingModel::kMoes : BearingModel::kButenschoen;
   check_bearing_width(table, bearing.size);
 }
@@ -87,13 +129,25 @@ const Keys<ShaftBearingSpec>& shaft_bearing_keys() {
         key.choice("model", bearing.model,
                    {{"butenschoen", Model::kButenschoen},
                     {"moes", Model::kMoes},
-                    {"linear", Model::kLinear}},
-                   "an oil film by one of two formulas, or a spring");
+                    {"linear", Model::kLinear},
+                    {"coefficients", Model::kCoefficients}},
+                   "an oil film by one of two formulas, a spring, or stiffnesses and damping that "
+                   "couple both directions across the axis");
         bearing_size_rows(key, bearing.size, {"butenschoen", "moes"});
         key.number("stiffness_n_m", bearing.stiffness, kAnyStiffness, "of the spring")
             .of("model", "linear");
         key.number("damping_n_s_m", bearing.damping, kAnyDamping, "of the spring")
             .needs("model", "linear");
+        key.vector("stiffness_matrix_n_m", bearing.stiffnesses, Range::between(-1e20, 1e20),
+                   "k11, k12, k21, k22 along the shaft's first and second axis")
+            .needs("model", "coefficients");
+        key.vector("damping_matrix_n_s_m", bearing.dampings, Range::between(-1e15, 1e15),
+                   "c11, c12, c21, c22")
+            .needs("stiffness_matrix_n_m");
+        key.path("table", bearing.table,
+                 "CSV of k11 to k22 and c11 to c22 over the speed, as at its ends beyond")
+            .needs("model", "coefficients")
+            .excludes("stiffness_matrix_n_m");
         key.number("thrust_stiffness_n_m", bearing.thrust.stiffness, kAnyStiffness,
                    "along the axis");
         key.number("thrust_damping_n_s_m", bearing.thrust.damping, kAnyDamping, "along the axis");
@@ -114,7 +168,8 @@ void make_sections(const Config& table, ShaftSpec& shaft) {
       with_context(table.where("section"), [&] { return ShaftSections(shaft.pieces, material); }));
 }
 
-/// Discs and bearings are on the shaft and have names of their own.
+/// Discs and bearings are on the shaft and have names of their own; an axis that is fixed has no
+/// unbalance.
 void check_parts(const Config& table, const ShaftSpec& shaft) {
   std::map<std::string, std::string> names;
   const auto check = [&](const char* kind, const auto& parts) {
@@ -128,6 +183,10 @@ void check_parts(const Config& table, const ShaftSpec& shaft) {
     }
   };
   check("disc", shaft.discs);
+  for (size_t d = 0; d < shaft.discs.size(); ++d)
+    if (shaft.discs[d].unbalance > 0.0 && shaft.model != ShaftModel::kFull)
+      table.tables("disc")[d].fail("unbalance_g_mm",
+                                   "found with an axis that is fixed, expected model = \"full\"");
   check("bearing", shaft.bearings);
   if (shaft.slices == 0 && shaft.discs.empty() && shaft.bearings.empty())
     table.fail("slices", "found 0 and no disc or bearing, expected at least one of them");
