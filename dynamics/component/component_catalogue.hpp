@@ -30,6 +30,10 @@ inline constexpr std::array kComponentEffects{
                 "u -> -e u, impacts together (Moreau 1988, Smith et al. 2012)",
                 "stiffness_n_m or restitution", "[[stop]]"},
     EffectEntry{
+        "rolling discs",
+        "N = k s (1 + chi s'), F = -mu N v_t / sqrt(v_t^2 + v_s^2) at the edge's lowest point",
+        "radius_mm, stiffness_n_m", "[[rolling_disc]]"},
+    EffectEntry{
         "main bearings",
         "linear, a table, impedances (Butenschoen 1976; Childs, Moes and van Leeuwen 1977), "
         "or Reynolds' equation on a grid",

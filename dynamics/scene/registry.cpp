@@ -11,6 +11,7 @@
 #include "dynamics/component/load_component.hpp"
 #include "dynamics/component/mount_component.hpp"
 #include "dynamics/component/rigid_body_component.hpp"
+#include "dynamics/component/rolling_component.hpp"
 #include "dynamics/component/spring_component.hpp"
 #include "dynamics/component/stop_component.hpp"
 #include "dynamics/crank/crank_component.hpp"
@@ -106,6 +107,7 @@ const std::vector<ComponentKind>& component_kinds() {
       kind_of("[[torque]]", torque_keys(), read_torques),
       kind_of("[[cam_torque]]", cam_torque_keys(), read_cam_torques),
       kind_of("[[stop]]", stop_keys(), read_stops),
+      kind_of("[[rolling_disc]]", rolling_disc_keys(), read_rolling_discs),
       {{{"gravity_m_s2"}}, gravity_keys().table().meaning(), read_gravity},
       kind_of("[[load]]", load_keys(), read_loads)};
   return kinds;

@@ -48,6 +48,8 @@ inline const std::vector<std::string>& effects_of_the_mechanism_limits() {
                                               "torsion of a shaft",
                                               "bending of a shaft",
                                               "bearings of a shaft",
+                                              "unbalance of a disc",
+                                              "rolling discs",
                                               "phaser",
                                               "torques over angle",
                                               "cam torque",

@@ -91,6 +91,10 @@ std::vector<LimitCase> MechanismLimits::joints() {
   std::string falling = ball;
   falling.replace(falling.find("\"xy\""), 4, "\"zx\"");
   const std::string at = "{ body = \"ball\", at_mm = [20, 110, 0] }";
+  const std::string disc = std::string(kTime) +
+                           "[[rigid_body]]\nname = \"disc\"\nmotion = \"space\"\nmass_kg = 2\n"
+                           "inertia_kg_m2 = [0.01, 0.02, 0.01]\ncentre_mm = [0, 0, 100]\n"
+                           "start_velocity_m_s = [0.3, 0, 0]\n";
   testing::write_rom(folder_ / "bar.rom.h5", testing::clamped_bar(1.0, 100, 10));
   testing::write_rom(folder_ / "block.rom.h5", testing::elastic_block(0.0535, 4, 3));
   const std::string block =
@@ -123,6 +127,13 @@ std::vector<LimitCase> MechanismLimits::joints() {
                                "}}\nnormal = [0, 1, 0]\nstiffness_n_m = {}\n",
                                at, 1e6 * s);
            })},
+          {"rolling discs", off(disc), on([=](double s) {
+             return disc + fmt::format(
+                               "[[rolling_disc]]\nname = \"r\"\nbody = \"disc\"\n"
+                               "axis = [0, 1, 0]\nradius_mm = 101\nfriction = 0.3\n"
+                               "stiffness_n_m = {}\n",
+                               1e6 * s);
+           })},
           {"gravity", off("gravity_m_s2 = 0\n" + falling),
            on([=](double s) { return fmt::format("gravity_m_s2 = {}\n", 10 * s) + falling; })}};
 }
@@ -142,6 +153,9 @@ std::vector<LimitCase> MechanismLimits::shafts() {
            on([=](double s) { return shaft("full", stiff(s), "", 1e9 / s) + pulled; }), 3e-3, 1e-3},
           {"bearings of a shaft", off(shaft("torsion", stiff(1e-3)) + pulled),
            on([=](double s) { return shaft("full", stiff(s), "", 1e9 / s) + pulled; }), 3e-3, 1e-3},
+          {"unbalance of a disc", off(shaft("full", "")), on([](double s) {
+             return shaft("full", "", fmt::format("unbalance_g_mm = {}\n", 1e4 * s));
+           })},
           {"phaser", off(shaft("torsion", "")), on([=](double s) {
              return shaft("torsion", "", fmt::format(fmt::runtime(phaser), 1e5 / s));
            })},
@@ -209,9 +223,9 @@ std::vector<LimitCase> MechanismLimits::cases() {
     one.steps = {0.0, 2e-5, 100};
     for (const char* part : {"torsion", "bending", "bearings", "phaser"})
       one.histories_only = one.histories_only || one.effect.starts_with(part);
-    for (const char* absent :
-         {"elastic joints", "springs", "stops", "phaser", "torques over angle", "cam torque",
-          "torque of valves", "hydraulic element", "valve spring"})
+    for (const char* absent : {"elastic joints", "springs", "stops", "rolling discs",
+                               "unbalance of a disc", "phaser", "torques over angle", "cam torque",
+                               "torque of valves", "hydraulic element", "valve spring"})
       if (one.effect == absent) one.row_off = "none";
   }
   return all;
