@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "core/base/units.hpp"
 #include "tests/dynamics/slap_scene.hpp"
 #include "tests/observed.hpp"
 
@@ -135,6 +136,29 @@ TEST_F(HardTD4_ImpactsTogether, ARowOfBallsSendsTheLastOneAway) {
     const double start = 0.02 * k + (k > 0 ? 1e-3 : 0.0), end = k == 0 ? 1e-3 : k == 3 ? 4e-3 : 0.0;
     EXPECT_NEAR(file.read_doubles(fmt::format("history/ball{}_z", k)).back() - start, end, 1e-9);
   }
+}
+
+TEST_F(HardTD4_ImpactsTogether, ARodBetweenWallAndFloorLeavesTheWallAtTwoThirdsOfItsHeight) {
+  // A ladder of 1 m without friction, of m l^2 / 12, from 70 deg on.
+  const double angle = 70.0 * kDegree, x = 1e3 * std::cos(angle), z = 1e3 * std::sin(angle);
+  const std::string scene =
+      fmt::format(
+          "[[rigid_body]]\nname = \"rod\"\nmotion = \"zx\"\nmass_kg = 1.0\n"
+          "inertia_kg_m2 = {}\ncentre_mm = [{}, 0, {}]\n",
+          1.0 / 12.0, 0.5 * x, 0.5 * z) +
+      stop("floor", "rod", x, 0.0, "", 0.0, 0.5) +
+      fmt::format(
+          "[[stop]]\nname = \"wall\"\na = {{ body = \"rod\", at_mm = [0, 0, {}] }}\n"
+          "b = {{ at_mm = [0, 0, 0] }}\nnormal = [1, 0, 0]\nrestitution = 0.5\n",
+          z);
+  const H5File file = recorded(scene, 0.5);
+  const auto force = file.read_doubles("history/stop_wall_force"),
+             height = file.read_doubles("history/rod_z");
+  const auto last = std::find_if(force.rbegin(), force.rend(), [](double f) { return f > 0.0; });
+  const auto leaves = static_cast<size_t>(force.rend() - last);
+  ASSERT_LT(leaves, height.size());
+  EXPECT_NEAR(height[leaves] / height[0], 2.0 / 3.0, 2e-3);
+  EXPECT_LT(result_.energy_residue, 1e-6);
 }
 
 TEST_F(HardTD4_ImpactsTogether, ABoxOnRigidFeetSlidesToAStopByFriction) {
