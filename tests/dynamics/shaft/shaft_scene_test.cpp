@@ -310,6 +310,20 @@ TEST_F(ShaftScenes, AreRefusedByTableKeyAndName) {
   expect(head + "speed_ratio = 0.5\n" + section + disc, "shaft[0].speed_ratio: needs speed_of");
   expect(head + section + bearing + "model = \"moss\"\n",
          "model: found \"moss\", expected one of: butenschoen, moes, linear");
+  expect(head + "model = \"torsion\"\n" + section + disc + "polar_kg_m2 = 1\nunbalance_g_mm = 5\n",
+         "shaft[0].disc[0].unbalance_g_mm: found with an axis that is fixed, expected model");
+  const std::string plain =
+      "[[shaft.bearing]]\nname = \"b\"\nat_mm = 50\nmodel = \"coefficients\"\n";
+  expect(head + section + plain,
+         "shaft[0].bearing[0].model: found \"coefficients\" alone, expected stiffness_matrix_n_m "
+         "or table");
+  expect(head + section + plain + "stiffness_matrix_n_m = [1, 2]\n",
+         "stiffness_matrix_n_m: found 2 numbers, expected 4");
+  std::ofstream(folder_ / "b.csv") << "speed [rpm], k11 [N/mm], c11 [N s/m]\n0, 1, 2\n";
+  expect(head + section + plain + "table = \"b.csv\"\n", "b.csv:1: no column \"k12\", found: k11, c11");
+  std::ofstream(folder_ / "c.csv") << "speed [rpm], k11 [N], c11 [N s/m]\n0, 1, 2\n";
+  expect(head + section + plain + "table = \"c.csv\"\n",
+         "c.csv:1: found k11 in [N] over [rad/s], expected units of [N/m] over a speed, [rpm]");
   const std::string shaft = head + section + disc;
   expect(shaft + "[[torque]]\nbody = \"cam\"\nvalue_n_m = 1\n",
          "torque[0].body: no body \"cam\" that turns about an axis, found: cam.wheel");
