@@ -7,8 +7,7 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 Bristle::Force Bristle::evaluate(const Stage& stage, const Vector2d& slip, double normal) {
-  Vector2d before = accepted_;
-  for (int j = 0; j < stage.index; ++j) before += stage.weights[j] * rates_[j];
+  const Vector2d before = z_.known(stage);
   const double rate_stiffness = k_ * stage.kappa + c_;
   const Vector2d trial = k_ * before + rate_stiffness * slip;
   const double size = trial.norm(), limit = kinetic_ * normal;
@@ -21,36 +20,28 @@ Bristle::Force Bristle::evaluate(const Stage& stage, const Vector2d& slip, doubl
     force.by_slip =
         limit / size * rate_stiffness * (Matrix2d::Identity() - direction * direction.transpose());
   }
-  rate_ = (force.value - k_ * before) / rate_stiffness;
-  // Stage 0 is a state, not the end of a step.
-  z_ = stage.index == 0 ? before : Vector2d(before + stage.kappa * rate_);
-  if (stage.index == 0) rates_[0] = rate_;
+  z_.set_rate(stage, (force.value - k_ * before) / rate_stiffness);
   return force;
 }
 
-void Bristle::finish_stage(const Stage& stage) {
-  rates_[stage.index] = rate_;
-  last_stage_ = stage.index;
-}
-
 void Bristle::accept_step() {
-  accepted_ = z_;
+  z_.accept_step();
   slid_ = slides_;
-  rates_[0] = rates_[last_stage_];
 }
 
 double Bristle::lost(const Vector2d& slip) const {
-  return (k_ * z_ + c_ * rate_).dot(slip) - k_ * z_.dot(rate_);
+  return (k_ * z_.value() + c_ * z_.rate()).dot(slip) - k_ * z_.value().dot(z_.rate());
 }
 
 std::vector<double> Bristle::save() const {
-  return {accepted_.x(), accepted_.y(), rates_[0].x(), rates_[0].y(), slid_ ? 1.0 : 0.0};
+  std::vector<double> state = z_.save();
+  state.push_back(slid_ ? 1.0 : 0.0);
+  return state;
 }
 
 void Bristle::restore(std::span<const double> state) {
-  accepted_ = z_ = {state[0], state[1]};
-  rates_[0] = rate_ = {state[2], state[3]};
-  slid_ = slides_ = state[4] != 0.0;
+  z_.restore(state);
+  slid_ = slides_ = state.back() != 0.0;
 }
 
 }  // namespace clatter::dynamics

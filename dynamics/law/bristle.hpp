@@ -2,11 +2,10 @@
 #pragma once
 // Coulomb friction that sticks.
 #include <Eigen/Core>
-#include <array>
 #include <span>
 #include <vector>
 
-#include "dynamics/law/stage.hpp"
+#include "dynamics/law/internal_state.hpp"
 
 namespace clatter::dynamics {
 
@@ -32,11 +31,11 @@ class Bristle {
   };
   /// At a stage, of the slip [m/s] in axes of the plane and the normal force N >= 0 [N].
   Force evaluate(const Stage& stage, const Eigen::Vector2d& slip, double normal);
-  void finish_stage(const Stage& stage);
+  void finish_stage(const Stage& stage) { z_.finish_stage(stage); }
   void accept_step();
 
   // At the last evaluation:
-  double stored() const { return 0.5 * k_ * z_.squaredNorm(); }  // [J]
+  double stored() const { return 0.5 * k_ * z_.value().squaredNorm(); }  // [J]
   /// Of the power q . slip, what is not stored [W].
   double lost(const Eigen::Vector2d& slip) const;
 
@@ -46,10 +45,8 @@ class Bristle {
 
  private:
   double k_, c_, kinetic_, at_rest_;
-  Eigen::Vector2d accepted_ = Eigen::Vector2d::Zero(), z_ = accepted_, rate_ = accepted_;
-  std::array<Eigen::Vector2d, 3> rates_{accepted_, accepted_, accepted_};  // of the stages
+  InternalState<Eigen::Vector2d> z_{Eigen::Vector2d::Zero()};
   bool slid_ = false, slides_ = false;  // at the end of the last step, and now
-  int last_stage_ = 0;
 };
 
 }  // namespace clatter::dynamics

@@ -2,11 +2,11 @@
 #pragma once
 // The unbalance of a disc.
 #include <Eigen/Core>
-#include <array>
 #include <string>
 #include <vector>
 
 #include "dynamics/element/element.hpp"
+#include "dynamics/law/internal_state.hpp"
 
 namespace clatter::dynamics {
 
@@ -29,10 +29,10 @@ class DiscUnbalance : public ForceElement {
   std::string name() const override { return name_; }
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, Response& response) override;
-  void finish_stage(const Stage& stage) override;
-  void accept_step(double time) override;
+  void finish_stage(const Stage& stage) override { momenta_.finish_stage(stage); }
+  void accept_step(double) override { momenta_.accept_step(); }
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
-  std::vector<double> save() const override;
+  std::vector<double> save() const override { return momenta_.save(); }
   void restore(const std::vector<double>& state) override;
 
  private:
@@ -42,10 +42,7 @@ class DiscUnbalance : public ForceElement {
 
   std::string name_;
   double unbalance_, phase_;
-  Eigen::Vector3d accepted_, stage_, rate_ = Eigen::Vector3d::Zero();  // (P, Q) and its rate
-  std::array<Eigen::Vector3d, 3> rates_{rate_, rate_, rate_};          // of the stages
-  int last_stage_ = 0;
-  bool started_ = false;
+  InternalState<Eigen::Vector3d> momenta_;  // (P, Q)
 };
 
 }  // namespace clatter::dynamics
