@@ -361,7 +361,7 @@ void Rows::in_either(const std::string& first, const std::string& second, bool& 
     const auto to_flag = static_cast<std::ptrdiff_t>(offset_of(&is_second)) -
                          static_cast<std::ptrdiff_t>(key.offset);
     key.read = [=, read = key.read](const Key& row, const Config& table, std::byte* bytes) {
-      if (table.has(second) == is_first) return;
+      if (table.has(second) ? is_first && !table.has(first) : !is_first) return;
       read(row, table, bytes);
       member<bool>(bytes + to_flag) = !is_first;
     };

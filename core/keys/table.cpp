@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "core/keys/overruled.hpp"
+
 namespace clatter::keys {
 namespace {
 
@@ -68,17 +70,22 @@ bool Table::applies(const Key& key, const Config& table, const std::byte* object
 }
 
 void Table::check_rules(const Config& table, const std::byte* object) const {
+  const auto overruled = overruled_keys(*this, table);
+  const auto has = [&](const std::string& name) {
+    return table.has(name) && !overruled.contains(name);
+  };
   for (const std::vector<std::string>& group : alternatives_) {
     std::vector<std::string> given;
     for (const std::string& name : group)
-      if (table.has(name)) given.push_back(name);
+      if (has(name)) given.push_back(name);
     if (given.empty()) table.fail(group.front(), fmt::format("give {}", fmt::join(group, " or ")));
     if (given.size() > 1)
       table.fail(given[1], fmt::format("{} exclude each other", fmt::join(given, " and ")));
   }
   for (const Key& key : keys_) {
     for (const Rule& rule : key.rules) {
-      const bool given = table.has(key.name), is_so = holds(rule, table, object);
+      const bool given = has(key.name);
+      const bool is_so = rule.values.empty() ? has(rule.other) : has_value(rule, object);
       const std::string other = condition(find(rule.other), rule);
       if (rule.kind == Rule::Kind::kExcludes && given && is_so)
         table.fail(key.name, fmt::format("{} and {} exclude each other{}", key.name, other,
@@ -114,8 +121,11 @@ void Table::check_known(const Config& table) const {
 void Table::read(const Config& table, std::byte* object) const {
   if (source_) *reinterpret_cast<Source*>(object + *source_) = Source(table);
   if (!shared_) check_known(table);
+  const auto overruled = overruled_keys(*this, table);
+  report_overruled(overruled, table);
   for (const Key& key : keys_)
-    if (key.read && (key.required || table.has(key.name) || applies(key, table, object)))
+    if (key.read && !overruled.contains(key.name) &&
+        (key.required || table.has(key.name) || applies(key, table, object)))
       key.read(key, table, object + key.offset);
   check_rules(table, object);
 }

@@ -22,7 +22,7 @@ std::string body_size(const LoadedBody& body) {
 
 void check_body_motion(const Config& table, BodySpec& body) {
   if (!body.drive.empty()) body.motion = BodyMotion::kDrive;
-  body.is_placed = table.has("centre_mm");
+  body.is_placed = body.motion == BodyMotion::kSpace && table.has("centre_mm");
   if (body.motion != BodyMotion::kSpace) return;
   if (!body.elastic)
     table.fail("model",

@@ -73,6 +73,14 @@ Eigen::VectorXd force_at_centre(const ModalBody& body, const LoadSpec& load) {
          body.shapes.row(moved).transpose();
 }
 
+/// The body of the system on which a load acts: a disc or journal may be a part of one.
+int body_of(const ModelBuilder& model, const LoadSpec& load) {
+  if (model.has_body(load.body)) return model.body(load.body);
+  if (const TurningBody* part = model.find_turn(load.body)) return part->body;
+  throw InputError(
+      fmt::format("{}: load.body: no body \"{}\" in the scene", load.where, load.body));
+}
+
 }  // namespace
 
 const Keys<LoadSpec>& load_keys() {
@@ -80,7 +88,9 @@ const Keys<LoadSpec>& load_keys() {
       "load", "a known force over time or crank angle", [](auto& key, LoadSpec& load) {
         const Range factor = Range::between(-1e15, 1e15);
         key.where(load.where);
-        key.text("body", load.body, "the body on which it acts").required();
+        key.text("body", load.body,
+                 "the body on which it acts; <shaft>.<disc> or <shaft>.<bearing> of a shaft")
+            .required();
         key.text("load", load.load, "unit load of the body's reduced model");
         const char* has_all = "a unit load has points and directions";
         key.text("set", load.set,
@@ -122,11 +132,7 @@ std::vector<std::filesystem::path> LoadComponent::inputs() const {
 void LoadComponent::add_loads(ModelBuilder& model) {
   int count = 0;
   for (const LoadSpec& load : loads_) {
-    if (!model.has_body(load.body)) {
-      throw InputError(
-          fmt::format("{}: load.body: no body \"{}\" in the scene", load.where, load.body));
-    }
-    const int body = model.body(load.body);
+    const int body = body_of(model, load);
     const LoadedBody* loaded = find_body(model.loaded, load.body);
     const Eigen::VectorXd modal = loaded != nullptr && !loaded->shapes
                                       ? modal_force(*loaded, load)

@@ -57,12 +57,15 @@ void ModelBuilder::add_ports(const std::string& body, PortMaker maker, const std
         fmt::format("{}: a second body named \"{}\", expected each name once", where, body));
 }
 
-const TurningBody& ModelBuilder::turn(const std::string& name, const std::string& where) const {
+const TurningBody* ModelBuilder::find_turn(const std::string& name) const {
   const auto found = turns_.find(name);
-  if (found == turns_.end())
-    throw InputError(fmt::format("{}: no body \"{}\" that turns about an axis, found: {}", where,
-                                 name, names_of(turns_)));
-  return found->second;
+  return found == turns_.end() ? nullptr : &found->second;
+}
+
+const TurningBody& ModelBuilder::turn(const std::string& name, const std::string& where) const {
+  if (const TurningBody* found = find_turn(name)) return *found;
+  throw InputError(fmt::format("{}: no body \"{}\" that turns about an axis, found: {}", where,
+                               name, names_of(turns_)));
 }
 
 int ModelBuilder::y(const std::string& body, const std::string& set, int axis, bool rotation) {

@@ -61,6 +61,8 @@ class ModelBuilder {
   void add_ports(const std::string& body, PortMaker maker, const std::string& where);
   /// `name`, a body of the system or a part of one, turns about a fixed direction.
   void add_turn(const std::string& name, const TurningBody& turn) { turns_[name] = turn; }
+  /// nullptr when no body of that name turns.
+  const TurningBody* find_turn(const std::string& name) const;
   /// InputError at `where` when no body of that name turns.
   const TurningBody& turn(const std::string& name, const std::string& where) const;
   /// The reference frame of a body with a reduced model moves: points of it are no ports.

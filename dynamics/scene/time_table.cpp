@@ -83,7 +83,9 @@ const Keys<TimeTable>& time_keys() {
                    "loads grow from zero over this angle at the start: 60 of an engine, 0 with "
                    "start_from and without an engine");
         key.number("output_step_us", time.output_step, Range::positive(),
-                   "between rows of the run file: 20 without it");
+                   "between samples of the bodies' motion: 20 without it; histories and energies "
+                   "have a row "
+                   "for each step of the integration");
         key.number("film_every_deg", time.film_every, Range::between(0.0, 720.0),
                    "between fields of films; 0: none");
         key.choice("method", time.method,

@@ -52,10 +52,12 @@ TEST_F(WarmClearanceScene, LeavesTheGapOfAClearanceBetweenColdSurfaces) {
   EXPECT_LT((found - given).cwiseAbs().maxCoeff(), 0.1 * (far - given).cwiseAbs().maxCoeff());
 }
 
-TEST_F(WarmClearanceScene, IsRefusedBesideAClearanceAndWithoutAny) {
-  test::expect_parts(refusal("[contact]\nminimum_warm_clearance_um = 5\n"),
-                     {"changed.run.toml:3: contact.minimum_warm_clearance_um: clearance_um and "
+TEST_F(WarmClearanceScene, IsRefusedBesideAClearanceOfItsFileAndWithoutAny) {
+  test::expect_parts(refusal("[contact]\nclearance_um = 5\nminimum_warm_clearance_um = 5\n"),
+                     {"changed.run.toml:4: contact.minimum_warm_clearance_um: clearance_um and "
                       "minimum_warm_clearance_um exclude each other"});
+  const Scene over = scene("[contact]\nminimum_warm_clearance_um = 5\n");
+  EXPECT_EQ(over.resolved.find("contact.clearance_um"), std::string::npos) << over.resolved;
   replace_clearance("");
   test::expect_parts(refusal("title = \"neither\"\n"),
                      {"contact.clearance_um: give clearance_um or minimum_warm_clearance_um"});

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "dynamics/film/piston_liner.hpp"
 #include "dynamics/run/run_file.hpp"
@@ -242,6 +243,14 @@ TEST_F(ContactOil, ThePredictedSizeHasTheLayer) {
   // 36 cells of each pad have four fields; rows of 70 mm / 6 from 90 to 325 mm are 21, of one
   // field.
   EXPECT_NEAR(cells(kLayer) / cells(""), 1.0 + 0.25 * 21.0 / 6.0, 0.01);
+}
+
+TEST_F(ContactOil, AFileOverTheLayerTurnsItOffOrItsSplash) {
+  std::filesystem::copy_file(folder_ / "slap.run.toml", folder_ / "engine.run.toml");
+  std::ofstream(folder_ / "slap.run.toml") << "base = \"engine.run.toml\"\n" << kLayer;
+  EXPECT_EQ(on("[contact.liner_oil]\nsplash_um_s = 0\n"), "oil layer on the liner; ");
+  EXPECT_EQ(on("[contact]\nlubrication = \"none\"\n"), "");
+  EXPECT_EQ(on("[contact]\ncavitation = false\n"), "");
 }
 
 TEST_F(ContactOil, ContradictionsNameTheirKey) {

@@ -136,7 +136,7 @@ lubrication = "none"
   EXPECT_NEAR(angle.back() - angle.front(), 720.0, 1e-9);
   // The mean of 1 / speed: 2000 sqrt(1 - (60/2000)^2) rpm.
   EXPECT_NEAR(described.clock->cycle(), cycle / std::sqrt(1.0 - 9e-4), 1e-6 * cycle);
-  EXPECT_NE(refusal("[engine]\nspeed_table = \"speed.csv\"\n")
+  EXPECT_NE(refusal("[engine]\nspeed_rpm = 900\nspeed_table = \"speed.csv\"\n")
                 .find("speed_rpm and speed_table exclude each other"),
             std::string::npos);
 }

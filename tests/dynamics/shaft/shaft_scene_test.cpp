@@ -256,6 +256,35 @@ value_n_m = 3
   EXPECT_NEAR(file.read_doubles("history/torque_1_moment").back(), 3.0, 1e-12);
 }
 
+TEST_F(ShaftScenes, ALoadActsOnADiscOfEveryModel) {
+  // 2 N m on a free shaft, by a load and by a torque; "end" is a part of the rigid shaft's body.
+  const auto shaft = [](const std::string& model, const std::string& moment) {
+    return "[time]\nend_s = 0.01\noutput_step_us = 100\n[[shaft]]\nname = \"cam\"\n"
+           "axis = \"z\"\nmodel = \"" +
+           model +
+           "\"\n[[shaft.section]]\nfrom_mm = 0\nto_mm = 100\ndiameter_mm = 20\n"
+           "[[shaft.disc]]\nname = \"wheel\"\nat_mm = 10\nmass_kg = 1\npolar_kg_m2 = 1e-3\n"
+           "[[shaft.disc]]\nname = \"end\"\nat_mm = 90\nmass_kg = 1\npolar_kg_m2 = 1e-3\n" +
+           moment;
+  };
+  const std::string load = "[[load]]\nbody = \"cam.end\"\ncomponent = \"rz\"\nvalue = 2\n";
+  const std::string torque = "[[torque]]\nbody = \"cam.end\"\nvalue_n_m = 2\n";
+  for (const char* model : {"full", "torsion", "rigid"}) {
+    const double turned = recorded(shaft(model, load)).read_doubles("history/cam.end_angle").back();
+    const double expected =
+        recorded(shaft(model, torque)).read_doubles("history/cam.end_angle").back();
+    EXPECT_NEAR(turned, expected, 1e-6 * expected) << model;
+    EXPECT_GT(turned, 0.9 * 0.5 * 2.0 / 2.1e-3 * 1e-4) << model;
+  }
+  EXPECT_NE(refusal(shaft("rigid", "[[load]]\nbody = \"cam.end\"\nvalue = 2\n"))
+                .find("load.component: found \"x\", expected one that \"cam.end\" follows as a "
+                      "single coordinate"),
+            std::string::npos);
+  EXPECT_NE(refusal(shaft("rigid", "[[load]]\nbody = \"cam.ende\"\nvalue = 2\n"))
+                .find("load.body: no body \"cam.ende\" in the scene"),
+            std::string::npos);
+}
+
 TEST_F(ShaftScenes, AreRefusedByTableKeyAndName) {
   const std::string head = "[time]\nend_s = 0.1\n[[shaft]]\nname = \"cam\"\n";
   const std::string section = "[[shaft.section]]\nfrom_mm = 0\nto_mm = 100\ndiameter_mm = 20\n";
