@@ -89,7 +89,7 @@ const Keys<LoadSpec>& load_keys() {
         const Range factor = Range::between(-1e15, 1e15);
         key.where(load.where);
         key.text("body", load.body,
-                 "the body on which it acts; <shaft>.<disc> or <shaft>.<bearing> of a shaft")
+                 "the body on which it acts; of a shaft a disc or bearing, as cam.wheel")
             .required();
         key.text("load", load.load, "unit load of the body's reduced model");
         const char* has_all = "a unit load has points and directions";

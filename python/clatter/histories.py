@@ -19,6 +19,15 @@ def history(run, name, unit):
     return values
 
 
+def time_weights(time):
+    """Weights of samples at any instants, whose sum is 1: of the mean over time, piecewise linear between them. Histories have a row for
+    each step of the integration, not at equal times."""
+    steps = np.diff(time)
+    if len(time) < 2 or not time[-1] > time[0]:
+        return np.full(len(time), 1.0 / len(time))
+    return 0.5 * (np.append(steps, 0.0) + np.append(0.0, steps)) / (time[-1] - time[0])
+
+
 def has(run, name):
     return f"history/{name}" in run
 

@@ -58,7 +58,7 @@ class Run(Artefact):
 
     @property
     def history_time(self) -> np.ndarray:
-        """Instants of the histories, n_h [s]."""
+        """Instants of the histories, n_h, the ends of the integration's steps: not equally spaced [s]."""
         return dataset(self.file, "history/time")
 
     @property
@@ -132,7 +132,7 @@ class Run(Artefact):
         return dataset(self.file, f"bodies/{body}/{MOTIONS[quantity][0]}") @ rows.T
 
     def table(self, body=None, quantity="displacement"):
-        """All histories over `history_time`, or all coordinates of a body over `time`: a pandas.DataFrame whose index is the time [s],
+        """All histories over `history_time`, which is not equally spaced, or all coordinates of a body over `time`: a pandas.DataFrame whose index is the time [s],
         without pandas a structured array whose first field is `time` [s]. Units of the columns are in `units`."""
         if body is None:
             return table_of({"time": self.history_time, **{name: dataset(self.file, f"history/{name}")

@@ -172,6 +172,15 @@ class Values(unittest.TestCase):
             self.assertAlmostEqual(take("max").number(), 1.0)
             self.assertAlmostEqual(take("range").number(), 2.0)
             self.assertAlmostEqual(take("rms").number(), np.sqrt(0.5), delta=1e-3)
+            # Rows of histories are steps of the integration: means are over time, whatever their number.
+            with h5py.File(path, "r+") as file:
+                time = np.concatenate([np.linspace(0.0, 0.5, 1000), np.linspace(0.5, 1.0, 12)[1:]])
+                file["chain/time"], file["chain/ramp"], file["chain/other"] = time, time, np.append(time, 9.0)
+            mean = lambda name, reduce="mean": quantities.extract(path, "dataset", {  # noqa: E731
+                "path": name, "reduce": reduce, "column": 0, "last_cycle_only": False}).number()
+            self.assertAlmostEqual(mean("chain/ramp"), 0.5, delta=1e-12)
+            self.assertAlmostEqual(mean("chain/ramp", "rms"), np.sqrt(1.0 / 3.0), delta=1e-3)
+            self.assertAlmostEqual(mean("chain/other"), np.mean(np.append(time, 9.0)))
             curve = take("curve")
             np.testing.assert_allclose(curve.values, np.cos(2.0 * 2.0 * np.pi * curve.at), atol=1e-4)
             self.assertEqual(quantities.extract(path, "link_force", {"chain": "c"}).number(), 7.0)

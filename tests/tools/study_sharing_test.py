@@ -91,6 +91,9 @@ class Sharing(StandIns):
         self.study()
         count = {kind: sum(one.endswith(f".{kind}.h5") for one in self.made) for kind in SECONDS}
         self.assertEqual(count, {"mesh": 1, "fe": 1, "rom": 1, "run": 3, "field": 4})
+        said = "\n".join(findings.report(self.study(jobs=1)))
+        self.assertRegex(said, r"\nbase .* \(taken over\)")
+        self.assertIn("tolerance, value: no seconds are compared: 0.2, the base (taken over)", said)
         # What the pipeline's folder gets later does not change what the study has.
         (self.folder / "part.rom.h5").unlink()
         self.study()
@@ -100,6 +103,32 @@ class Sharing(StandIns):
         self.study()
         self.assertEqual(sorted(self.made), ["part.fe.h5", "part.mesh.h5", "part.rom.h5", "slap.run.h5"])
         self.study()
+        self.assertEqual(self.made, [])
+
+    def test_seconds_of_stages_that_ran_beside_others_are_not_ranked(self):
+        self.assertEqual(findings.alike(self.study(jobs=1)), [])
+        said = "\n".join(findings.report(self.study()))
+        self.assertIn("% costs 10 s (0.2, the base)", said)
+        # Both runs of the fine mesh at the same time; that of the base is still alone.
+        fine = [path.parent for path in (self.folder / "study/made").glob("slap.run-*/.span")
+                if os.path.samefile(path.parent / "part.rom.h5", next((self.folder / "study/variants").glob("cell*")) / "part.rom.h5")]
+        self.assertEqual(len(fine), 2)
+        shutil.copy(fine[0] / ".span", fine[1] / ".span")
+        study = self.study()
+        base, cell, tolerance, refined = range(4)
+        self.assertEqual([study.conditions(one) for one in (base, cell, tolerance, refined)], [[], ["beside others"], [], ["beside others"]])
+        self.assertNotIn(cell, findings.front(study, 0))
+        said = "\n".join(findings.report(study))
+        self.assertRegex(said, r"cell size 1 mm .* \(beside others\)")
+        self.assertIn('seconds of stages that were measured beside others are not compared with others: cost = "processor", or -j1 without reuse', said)
+        line = self.command("--within", "value 5 %", code=3)
+        self.assertIn("--within: seconds of stages that were measured beside others are not compared", line)
+        self.assertIn("found cell size 1 mm, all refined", line)
+        # A launcher gives each stage processors of its own, and processor seconds do not depend on what else runs.
+        (fine[1] / ".span").write_text((fine[1] / ".span").read_text().strip() + " launched\n")
+        self.assertEqual(sum(bool(self.study().conditions(one)) for one in (cell, refined)), 1)
+        self.write("study.toml", 'cost = "processor"\n' + SMALL)
+        self.assertEqual(findings.alike(self.study()), [])
         self.assertEqual(self.made, [])
 
     def test_a_failed_variant_is_reported_and_the_rest_is_complete(self):

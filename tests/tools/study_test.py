@@ -16,7 +16,7 @@ from clatter_tools.study import effect_keys, effects, effects_page, findings, ma
 
 class Numbers(StandIns):
     def test_orders_limits_budget_and_cost_are_the_known_ones(self):
-        said = self.command("-j2")
+        said = self.command()
         with h5py.File(self.folder / "study/study.h5") as file:
             value = file["quantity/value"]
             self.assertEqual([round(one, 6) for one in value["order"][:2]], [2.0, 1.0])

@@ -4,7 +4,7 @@ import numpy as np
 
 from clatter import chains
 from clatter.artefact import BadArtefact, dataset
-from clatter.histories import has, history
+from clatter.histories import has, history, time_weights
 from . import orders
 
 CRITICAL_ORDER = 1.5  # the lowest one of a three-cylinder engine, which excites the first mode of its timing drive
@@ -62,7 +62,8 @@ def jump_text(run, name):
 
 def speed_text(run, name, one, window):
     speed = history(run, f"{name}_{one.name}_speed", "rad/s")[window]
-    text = f"{one.name}: its speed varies by {speed.min() - speed.mean():+.2f} to {speed.max() - speed.mean():+.2f} rad/s"
+    mean = time_weights(dataset(run, "history/time")[window]) @ speed
+    text = f"{one.name}: its speed varies by {speed.min() - mean:+.2f} to {speed.max() - mean:+.2f} rad/s"
     try:
         _, order, rms, _ = orders.of_run(run, f"{name}_{one.name}_speed")
     except BadArtefact:

@@ -50,7 +50,7 @@ TAKE = [
     key("chain", "text", "link_force: name of a chain"),
     key("element", "text", "loss: name of a force element"),
     key("path", "text", "dataset: its path in the file, or group@attribute"),
-    key("reduce", "choice", "dataset: to which number; last without it", choices=REDUCE),
+    key("reduce", "choice", "dataset: to which number; last without it; mean and rms of a history are over time, as its steps are unequal", choices=REDUCE),
     key("column", "integer", "dataset: of a table, from 0", min=0),
     key("last_cycle_only", "flag", "dataset: whether a history is cut to its last cycle, as it is without the key"),
 ]

@@ -4,7 +4,7 @@ import numpy as np
 
 from clatter import chains
 from clatter.artefact import BadArtefact, dataset
-from clatter.histories import centred, has
+from clatter.histories import centred, has, time_weights
 from . import style
 
 
@@ -32,6 +32,11 @@ class LastCycle:
     def history(self, name, unit):
         """A history in that order; BadArtefact if it has another unit."""
         return chains.history(self.run, name, unit)[self.window][self.order]
+
+    def fluctuation(self, name, unit):
+        """The same less its mean over time."""
+        values, time = chains.history(self.run, name, unit)[self.window], dataset(self.run, "history/time")[self.window]
+        return (values - time_weights(time) @ values)[self.order]
 
     def finish(self, axis):
         """Limits, ticks and label of the axis below."""

@@ -27,10 +27,10 @@ def draw(files):
         cycle, name = LastCycle(run), chains.names(run)[0]
         (first, first_teeth), *others = sprockets(run, name)
         for number, (one, teeth) in enumerate(others):
-            axis.plot(cycle.x, fluctuation(cycle, f"{name}_{one}_speed"), color=style.COLOURS[number], label=one, linewidth=1.2)
+            axis.plot(cycle.x, cycle.fluctuation(f"{name}_{one}_speed", "rad/s"), color=style.COLOURS[number], label=one, linewidth=1.2)
         teeth = others[0][1] if others else first_teeth
         share = first_teeth / teeth
-        axis.plot(cycle.x, share * fluctuation(cycle, f"{name}_{first}_speed"), color="#777777", linewidth=1.0,
+        axis.plot(cycle.x, share * cycle.fluctuation(f"{name}_{first}_speed", "rad/s"), color="#777777", linewidth=1.0,
                   label=f"{first} × {first_teeth}/{teeth}" if others else first)
         axis.set_title(f"{chains.mean_rpm(run):.0f} rpm", loc="left", fontsize=10)
     cycle.finish(axes[-1, 0])
@@ -39,7 +39,3 @@ def draw(files):
     style.headline(figure, "Speed fluctuation of the sprockets")
     return figure
 
-
-def fluctuation(cycle, name):
-    values = cycle.history(name, "rad/s")
-    return values - values.mean()

@@ -31,8 +31,8 @@ def picture(study, quantity):
 
 
 def draw_pareto(axis, study, quantity, factor):
-    """Total error over seconds of all variants, the base as a ring."""
-    seconds = [study.cost(k, quantity) for k in range(len(study.variants))]
+    """Total error over seconds of all variants whose seconds are compared, the base as a ring."""
+    seconds = [study.compared_cost(k, quantity) for k in range(len(study.variants))]
     errors = [factor * study.error(quantity, k) for k in range(len(study.variants))]
     least = findings.NOTHING * factor * study.size(quantity)
     errors = [one if one > least else float("nan") for one in errors]

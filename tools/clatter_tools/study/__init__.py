@@ -47,7 +47,10 @@ pipeline.py asks make, variants.py changes TOML files, store.py makes artefacts,
 numbers, findings.py the sentences, results.py the file, page.py the page, effects.py (with effect_keys.py and effects_page.py) and
 proposal.py, place.py and proof.py the options --effects and --within, markdown.py the tables of --markdown.
 
-Limits: seconds of stages that ran beside others are longer than on an idle machine (cost = "processor", or -j1); with CLATTER_LAUNCH on other
-machines processor seconds are not known, cost = "seconds" is. CLATTER_FLAGS (threads) is no part of the digests. A finest value that is its own
+**Seconds.** Those of stages that ran beside others of the study (-j2, not with CLATTER_LAUNCH) are longer than on an idle machine, and of artefacts that
+were taken over (`reuse`) nobody knows: they are shown as "(beside others)", "(taken over)", and no costs are ranked by them. cost = "processor" compares
+all that was made here, -j1 measures alike.
+
+Limits: with CLATTER_LAUNCH on other machines processor seconds are not known, cost = "seconds" is. CLATTER_FLAGS (threads) is no part of the digests. A finest value that is its own
 reference has no error in the budget: what is beyond it is not seen.
 """

@@ -5,6 +5,7 @@ import math
 from ..slaps import table
 from . import convergence
 from .run import BASE
+from .store import BESIDE
 
 SHOWN = 3       # points of a sentence
 CLOSED = 2.0    # factor within which a budget is closed
@@ -52,10 +53,12 @@ def ruler(study, quantity, number):
 def sentence(study, quantity, number):
     """"tolerance: 0.5 % costs 14 s, 0.05 % costs 160 s; below 0.2 % the cell size dominates"."""
     setting, own = study.plan.settings[number], study.plan.quantities[quantity]
-    found = points(study, quantity, number)
+    found, left = points(study, quantity, number), not_compared(study, quantity, number)
     where = f"{setting.name}, {own.name}"
     if not found:
-        return f"{where}: {'not known, no other value could be made' if number not in study.lines[quantity] else 'no value changes it'}"
+        why = "not known, no other value could be made" if number not in study.lines[quantity] else f"no seconds are compared: {left}" if left else \
+            "no value changes it"
+        return f"{where}: {why}"
     middle = next((row for row in found[1:-1] if row[0] == BASE), found[len(found) // 2])
     chosen = found if len(found) <= SHOWN else [found[0], middle, found[-1]]
     parts = [f"{error_text(study, quantity, error)} costs {seconds_text(seconds)} "
@@ -67,7 +70,26 @@ def sentence(study, quantity, number):
         end = f"; below {error_text(study, quantity, other[0])} {name} dominates" if other[0] < found[0][2] else \
             f"; {name} dominates throughout with {error_text(study, quantity, other[0])}"
     others = study.cost(BASE, quantity) - study.cost_of_setting(BASE, quantity, number)
-    return f"{where}: {', '.join(parts)}{end}; {seconds_text(others)} of other stages"
+    end += f"; {seconds_text(others)} of other stages" if math.isfinite(others) else ""
+    return f"{where}: {', '.join(parts)}{end}{f'; not compared: {left}' if left else ''}"
+
+
+def not_compared(study, quantity, number):
+    """"0.4 (beside others), 0.2, the base (taken over)": values of a setting whose seconds were not measured as those of others; "" for none."""
+    setting, line = study.plan.settings[number], study.lines[quantity].get(number)
+    found = []
+    for variant, error in zip(line.variants, line.errors) if line else ():
+        why = study.conditions(variant, quantity, number)
+        if why and study.scaled(quantity, error.size()) > NOTHING * study.size(quantity):
+            found.append(f"{setting.label(study.variants[variant].values[number])}{', the base' if variant == BASE else ''} ({', '.join(why)})")
+    return ", ".join(found)
+
+
+def alike(study):
+    """Why seconds are not compared, and how they are: a line; none where all are."""
+    why = sorted({one for variant in range(len(study.variants)) for one in study.conditions(variant)})
+    return [f"seconds of stages that were {' or '.join(f'measured {one}' if one == BESIDE else one for one in why)} are not compared with others: "
+            "cost = \"processor\", or -j1 without reuse, measures alike"] if why else []
 
 
 def sentences(study):
@@ -76,7 +98,7 @@ def sentences(study):
 
 def front(study, quantity):
     """Variants that no other one beats in both seconds and total error, by rising seconds."""
-    costs = [study.cost(k, quantity) for k in range(len(study.variants))]
+    costs = [study.compared_cost(k, quantity) for k in range(len(study.variants))]
     return convergence.pareto(costs, [study.error(quantity, k) for k in range(len(study.variants))])
 
 
@@ -193,8 +215,14 @@ def variant_rows(study, quantity):
             rows.append([one.name, "missing", "", ""])
             continue
         shown = f"{value.number():.6g}" if value.is_number else f"{len(value.values)} values"
-        rows.append([one.name, shown, error_text(study, quantity, study.error(quantity, k)), f"{study.cost(k, quantity):.3g}"])
+        rows.append([one.name, shown, error_text(study, quantity, study.error(quantity, k)), f"{study.cost(k, quantity):.3g}{seconds_note(study, k, quantity)}"])
     return rows
+
+
+def seconds_note(study, variant, quantity):
+    """" (beside others)", why the seconds of a variant are not compared; "" where they are."""
+    why = study.conditions(variant, quantity)
+    return f" ({', '.join(why)})" if why else ""
 
 
 def report(study):
@@ -203,4 +231,4 @@ def report(study):
     for quantity in range(len(study.plan.quantities)):
         for rows in (variant_rows(study, quantity), budget_rows(study, quantity)):
             lines += [*table(rows[0], rows[1:]), ""]
-    return [*lines, *sentences(study), "", *verdicts(study)]
+    return [*lines, *sentences(study), *alike(study), "", *verdicts(study)]

@@ -91,6 +91,9 @@ def answer(study, request, text, seconds, jobs, there=(), at=()):
     lacking = [study.plan.settings[number].name for number in study.lacking(quantity)]
     if lacking:
         raise Failed(f"{study.plan.path}: the finest value of {', '.join(lacking)} could not be made: errors are not known; see what its stage says above")
+    unlike = [one.name for k, one in enumerate(study.variants) if study.conditions(k, quantity)]
+    if unlike:
+        raise Failed(f"{study.plan.path}: --within: {findings.alike(study)[0]}; found {', '.join(unlike)}")
     place = place_of(study, quantity, within, jobs, there)
     best, least = propose_there(study, quantity, within, seconds, jobs, place)
     if at:

@@ -16,16 +16,17 @@
 | cost | any | | seconds of the stage |
 | dataset | any | path, reduce, column, last_cycle_only | any dataset or attribute (group@name), reduced to a number or kept as a curve |
 
-reduce is one of first, last, min, max, largest (of magnitudes), range, mean, rms, curve. A curve of a history is at POINTS equal steps of the crank angle of
-its last cycle, or of its time.
+reduce is one of first, last, min, max, largest (of magnitudes), range, mean, rms, curve. mean and rms of a history are over time: its rows are the steps of the
+integration, not at equal times. A curve of it is at POINTS equal steps of the crank angle of its last cycle, or of its time.
 """
 import dataclasses
+import pathlib
 
 import numpy as np
 
 from clatter import fields
 from clatter.artefact import BadArtefact, dataset, open_artefact, totals
-from clatter.histories import crank_angle, has
+from clatter.histories import crank_angle, has, time_weights
 from clatter.modes import Modes
 from clatter.rom import Rom
 from .. import orders, slap, slap_rows
@@ -38,8 +39,8 @@ EVERYTHING = 1e9     # Hz
 THIRD = 10.0**0.1    # from one third octave to the next
 REDUCTIONS = {
     "first": lambda x: x[0], "last": lambda x: x[-1], "min": np.min, "max": np.max, "largest": lambda x: np.max(np.abs(x)), "range": np.ptp,
-    "mean": np.mean, "rms": lambda x: np.sqrt(np.mean(np.square(x))),
 }
+MEANS = {"mean": lambda x, weights: weights @ x, "rms": lambda x, weights: np.sqrt(weights @ np.square(x))}
 
 
 @dataclasses.dataclass
@@ -228,7 +229,17 @@ def of_dataset(file, path, reduce, column, last_cycle_only):
         raise BadArtefact(f"{file.filename}: {path}: found {' x '.join(map(str, values.shape))} values, expected a number, vector or table")
     values = np.atleast_1d(values)
     window = last_cycle(file, len(values)) if last_cycle_only else slice(None)
+    if reduce in MEANS:
+        return MEANS[reduce](values[window], weights(file, path, len(values), window))
     return REDUCTIONS[reduce](values[window]) if reduce != "curve" else curve(file, values, window)
+
+
+def weights(file, path, count, window):
+    """Of the mean over a dataset's rows: over time where its group, or one above, has their instants; else each counts alike."""
+    for group in pathlib.PurePosixPath(path).parents:
+        if f"{group}/time" in file and file[f"{group}/time"].shape == (count,):
+            return time_weights(dataset(file, f"{group}/time")[window])
+    return np.full(len(range(count)[window]), 1.0 / len(range(count)[window]))
 
 
 def numbers_of(file, path, values):

@@ -77,8 +77,9 @@ def fill_quantity(study, quantity, own, put):
     put(f"{at}/budget", [study.scaled(quantity, parts[k].number()) if k in parts else nan for k in numbers], unit, "error of the base by setting, with its sign")
     put(f"{at}/budget_sum", [study.scaled(quantity, found.sum.number())], unit, "sum of the base's differences from the finest values")
     put(f"{at}/budget_run", [nan if found.refined is None else study.scaled(quantity, found.refined.number())], unit, "base less the run with everything refined")
-    front = convergence.pareto([study.cost(k, quantity) for k in range(len(known))], [study.error(quantity, k) for k in range(len(known))])
-    put(f"{at}/pareto", [float(k in front) for k in range(len(known))], "1", "1: no other variant is better in both seconds and total error")
+    front = findings.front(study, quantity)
+    put(f"{at}/pareto", [float(k in front) for k in range(len(known))], "1",
+        "1: no other variant is better in both seconds and total error; 0 also where the seconds are not compared")
 
 
 def write_rows(study, path):

@@ -14,13 +14,14 @@ BASE = 0  # number of the variant
 @dataclasses.dataclass
 class Stage:
     """An artefact of a variant: its name and that of its folder, seconds and peak memory [GiB] of its stage, processor seconds of its
-    commands; for which of the quantities' files it is needed."""
+    commands; for which of the quantities' files it is needed; what keeps its seconds from being compared (Store.condition)."""
     name: str
     folder: str
     seconds: float
     peak_gib: float
     processor: float
     needed_by: set
+    condition: str = ""
 
 
 def cost_of(wanted, stages, quantity=None):
@@ -46,16 +47,29 @@ class Study:
         """Seconds of the stages of a variant that a quantity needs, without one of all; nan where one is not known."""
         return cost_of(self.plan, self.stages[variant], quantity)
 
-    def affected(self, number):
-        """Names of the artefacts that a setting changes."""
+    def compared_cost(self, variant, quantity=None):
+        """The same; nan where it was not measured as that of others: costs are ranked by it."""
+        return float("nan") if self.conditions(variant, quantity) else self.cost(variant, quantity)
+
+    def affected(self, number=None):
+        """Names of the artefacts that a setting, or without a number any, changes."""
         base = {one.name: one.folder for one in self.stages[BASE]}
-        return {stage.name for one, stages in zip(self.variants, self.stages) if one.setting == number for stage in stages
+        return {stage.name for one, stages in zip(self.variants, self.stages) if number in (None, one.setting) for stage in stages
                 if base.get(stage.name) != stage.folder}
 
+    def conditions(self, variant, quantity=None, number=None):
+        """What keeps the seconds of a variant from being compared (Store.condition), by the stages that a setting, or without a number any, changes:
+        the others are those of all variants. Processor seconds are compared whatever ran beside."""
+        if self.plan.cost != "seconds":
+            return []
+        file, names = None if quantity is None else self.plan.quantities[quantity].file, self.affected(number)
+        return sorted({one.condition for one in self.stages[variant] if one.condition and one.name in names and (file is None or file in one.needed_by)})
+
     def cost_of_setting(self, variant, quantity, number):
-        """As cost, of the stages that a setting changes; the others cost the same with all its values."""
+        """As compared_cost, of the stages that a setting changes; the others cost the same with all its values."""
         names = self.affected(number)
-        return cost_of(self.plan, [one for one in self.stages[variant] if one.name in names], quantity)
+        own = [one for one in self.stages[variant] if one.name in names]
+        return float("nan") if self.conditions(variant, quantity, number) else cost_of(self.plan, own, quantity)
 
     def error(self, quantity, variant):
         """Size of the total error, relative where the quantity says so; nan where the variant has no value."""
@@ -156,7 +170,8 @@ class Making:
         for one in found.values():
             needed_by = {target.name for target in own if one in [*target.inputs.values(), target]}
             with artefact.open_artefact(self.store.path(one)) as file:
-                stages.append(Stage(one.name, one.folder, *artefact.totals(file), self.store.processor_seconds(one), needed_by))
+                stages.append(Stage(one.name, one.folder, *artefact.totals(file), self.store.processor_seconds(one), needed_by,
+                                    self.store.condition(one)))
         return stages
 
 

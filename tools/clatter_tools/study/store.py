@@ -3,6 +3,7 @@
 import contextlib
 import dataclasses
 import fcntl
+import functools
 import hashlib
 import math
 import os
@@ -25,11 +26,15 @@ HEAD = """# Written by `clatter study`: each artefact of its variants once.
 all: {all}
 """
 # The inputs are links to artefacts that are complete: make need not look what they are made of. `times` is the shell's: of a stage that goes on from
-# its checkpoint the seconds before the interruption count as well.
+# its checkpoint the seconds before the interruption count as well. .span: when the stage began and ended; with a launcher, which gives each stage processors
+# of its own, also that.
 RULE = """{target}:{inputs}
-	+@cd {folder} && {{ ls *.checkpoint >/dev/null 2>&1 || rm -f .times.part; }} && trap 'times >>.times.part; exit 143' INT TERM && \\
-	$(MAKE) --no-print-directory -I {pipeline} {old}{name} && times >>.times.part && mv .times.part .times
+	+@cd {folder} && {{ ls *.checkpoint >/dev/null 2>&1 || rm -f .times.part .span.part; }} && trap 'times >>.times.part; exit 143' INT TERM && \\
+	date +%s.%N >>.span.part && $(MAKE) --no-print-directory -I {pipeline} {old}{name} && times >>.times.part && mv .times.part .times && \\
+	date "+%s.%N $${{CLATTER_LAUNCH:+launched}}" >>.span.part && mv .span.part .span
 """
+BESIDE, TAKEN = "beside others", "taken over"
+OVERLAP = 0.05  # of a stage's time, during which others may run: less than its seconds vary by
 
 
 @dataclasses.dataclass
@@ -151,6 +156,7 @@ class Store:
         targets = ["all"] if only is None else [f"made/{one.folder}/{one.name}" for one in only]
         if not targets:
             return True
+        self.__dict__.pop("spans", None)
         # Make does not pass a signal on through the shells of its rules: it goes to the whole group. It has the lock as long as it runs, also after this
         # process was killed.
         process = subprocess.Popen(["make", "--no-print-directory", "-k", f"-j{jobs}", "-f", "study.mk", *targets], cwd=self.folder, env=environment(),
@@ -185,6 +191,26 @@ class Store:
                     link(folder / own, f"../../made/{other.folder}/{other.name}")
         except OSError as error:
             raise CannotWrite(f"{folder}: cannot be written: {error.strerror}") from error
+
+    def condition(self, made):
+        """What keeps the seconds of an artefact's stage from being compared with those of others: BESIDE other stages, TAKEN over from the pipeline's
+        folder, of which nobody knows beside what they ran; "" for none."""
+        spans = self.spans
+        if made.folder not in spans:
+            return TAKEN
+        begin, end, launched = spans[made.folder]
+        shared = sum(max(0.0, min(end, other[1]) - max(begin, other[0])) for folder, other in spans.items() if folder != made.folder)
+        return BESIDE if shared > OVERLAP * (end - begin) and not launched else ""
+
+    @functools.cached_property
+    def spans(self):
+        """{folder: (begin, end [s], whether by a launcher)} of all artefacts that were made here, also by earlier studies."""
+        found = {}
+        for path in (self.folder / "made").glob("*/.span"):
+            words = path.read_text(encoding="utf-8").split()
+            launched = words[-1] == "launched"
+            found[path.parent.name] = (float(words[0]), float(words[-2 if launched else -1]), launched)
+        return found
 
     def processor_seconds(self, made):
         """User and system seconds of the commands that made an artefact, on this machine; nan where they are not known."""
