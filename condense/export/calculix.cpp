@@ -17,6 +17,8 @@
 namespace clatter::condense {
 namespace {
 
+constexpr int kVectorsPerMode = 5;  // of Lanczos in CalculiX's *FREQUENCY: not more than free DoFs
+
 /// A node and its component 1, 2 or 3.
 struct NodeComponent {
   int node = 0, component = 0;
@@ -77,8 +79,10 @@ void write_head(std::ostream& out, const ExportedPart& part, const Numbers& numb
       "2.20)\n"
       "** *MATRIX INPUT,NAME=K,INPUT={}.K.txt (Abaqus)\n"
       "** Modes are springs and unit masses below; a rigid motion is held at {} Hz.\n"
+      "** Of this part alone *FREQUENCY gives at most {} modes; CalculiX prints zeros for more.\n"
       "** row  node  component  what\n",
-      model.n_boundary, model.size() - model.n_boundary, stem, stem, stem, kRigidHoldHz);
+      model.n_boundary, model.size() - model.n_boundary, stem, stem, stem, kRigidHoldHz,
+      model.size() / kVectorsPerMode);
   for (size_t j = 0; j < part.map.size(); ++j)
     out << fmt::format("** {}  {}  {}  {} {}\n", j + 1, numbers.dofs[j].node,
                        numbers.dofs[j].component,

@@ -109,7 +109,7 @@ class Calculix(Exported):
         self.assertEqual(self.export("part.inp"), ["part.inp", "part.K.txt", "part.M.txt"])
 
     def calculix_hz(self, cards="", count=4):
-        """The lowest frequencies by CalculiX [Hz]; with the beam's 23 equations it finds at most four."""
+        """The lowest frequencies by CalculiX [Hz]; with the beam's 23 coordinates it finds at most four."""
         calculix.run(f"*INCLUDE,INPUT=part.inp\n{cards}*STEP\n*FREQUENCY\n{count}\n*END STEP\n", self.folder)
         return calculix.frequencies(calculix.lines(self.folder))[:count]
 
@@ -122,6 +122,13 @@ class Calculix(Exported):
     def test_calculix_finds_our_frequencies(self):
         ours = frequencies(*reduced_matrices(self.folder / "beam.rom.h5"))
         np.testing.assert_allclose(self.calculix_hz(), ours[:4], rtol=1e-6)  # seven digits are printed
+
+    @calculix.required(REDUCED)
+    def test_calculix_finds_a_fifth_as_many_as_there_are_coordinates_and_zeros_beyond(self):
+        most = len(self.nodes_and_components()) // 5
+        self.assertIn(f"*FREQUENCY gives at most {most} modes", (self.folder / "part.inp").read_text())
+        self.assertTrue(np.all(np.array(self.calculix_hz(count=most)) > 0.0))
+        np.testing.assert_array_equal(self.calculix_hz(count=most + 1), 0.0)
 
     @calculix.required(REDUCED)
     def test_a_free_body_has_its_rigid_motions_at_a_thousandth_of_a_hertz(self):
