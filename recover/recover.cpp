@@ -273,6 +273,7 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
       options.origin, [&] { return choose_lines_of(of_lines, summary, body.clock().step_s); });
 
   file.set("/", "body", body.name());
+  if (body.clock().has_crank()) file.set("/", run::kAngleZero, body.clock().angle_zero);
   write_conventions(file, options, summary.limit, model.valid_to_hz);
   write_certificate(file, summary.certificate);
   write_skin(file, skin, geometry, summary.panels, options.output);

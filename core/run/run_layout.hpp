@@ -7,12 +7,13 @@
 namespace clatter::run {
 
 inline constexpr const char* kSchema = "clatter/run/1";
-inline constexpr const char* kComplete = "complete";  // root attribute: 0 for an interrupted run
+inline constexpr const char* kComplete = "complete";     // root attribute: 0 for an interrupted run
+inline constexpr const char* kAngleZero = "angle_zero";  // with a crank: what angle 0 is, in words
 
 // Groups with datasets kTime and, with a crank, kCrankAngle: n_t.
 inline constexpr const char* kOutput = "output";               // of the bodies' samples
 inline constexpr const char* kTime = "time";                   // [s]
-inline constexpr const char* kCrankAngle = "crank_angle_deg";  // from firing TDC
+inline constexpr const char* kCrankAngle = "crank_angle_deg";  // from kAngleZero
 
 // Group kBodies has a group for each body: these datasets, n_t x r, and attributes.
 inline constexpr const char* kBodies = "bodies";

@@ -87,6 +87,8 @@ ResponseSummary write_response(const std::filesystem::path& path, const std::str
   if (const std::string angles = run::path(run::kOutput, run::kCrankAngle); run.has(angles)) {
     file.write(angles, run.read_doubles(angles));
     file.set(angles, "unit", "deg");
+    if (run.has_attribute("/", run::kAngleZero))
+      file.set("/", run::kAngleZero, run.get_string("/", run::kAngleZero));
   }
   const std::string group = run::path(run::kBodies, name);
   const RowMatrix v = motion.v * body.sampled.transpose();

@@ -93,6 +93,7 @@ void write_run(const Scene& scene, const LoadedBodies& bodies, const RunResult& 
   H5File& file = *result.file;
   file.set("/", "title", scene.title);
   file.set("/", run::kComplete, result.complete ? 1 : 0);
+  if (scene.clock) file.set("/", run::kAngleZero, scene.angle_zero);
   for (const auto& body : bodies) write_body(file, body);
   file.set("energy", "residue", result.energy_residue);
   result.model->effects.write(file);

@@ -40,6 +40,16 @@ std::optional<CrankClock> read_clock(const Config& root) {
   return engine_keys().read(*engine).clock;
 }
 
+/// What crank angle 0 is. An engine without gas does not fire.
+std::string angle_zero(const Config& root) {
+  if (!root.has("engine")) return "the cycle's start";
+  const std::vector<Config> cylinders = root.tables("cylinder");
+  const bool fires =
+      root.has("gas") || std::any_of(cylinders.begin(), cylinders.end(),
+                                     [](const Config& one) { return one.has("gas"); });
+  return fires ? "firing TDC" : "TDC";
+}
+
 void check_engine(const Config& root) {
   for (const char* key : {"piston", "block", "gas", "contact", "rod", "small_end", "big_end",
                           "pin_guide", "cylinder", "crank"}) {
@@ -118,6 +128,7 @@ Scene read_scene(const Config& root, const std::filesystem::path& path) {
   scene.title = root.text_or("title", path.stem().stem().string());
   check_engine(root);
   scene.clock = read_clock(root);
+  if (scene.clock) scene.angle_zero = angle_zero(root);
   const TimeTable time = read_time(root, scene);
   scene.components = read_components(root);
   scene.forces = read_recorded_forces(root);

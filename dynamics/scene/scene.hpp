@@ -32,6 +32,7 @@ struct Scene {
   StepOptions steps;
   double film_every = 0.0;          // between stored film fields [s]; 0: none
   std::optional<CrankClock> clock;  // of an engine scene: runs are cycles of it
+  std::string angle_zero;           // what its angle 0 is: "firing TDC"
   std::vector<ForceRecordSpec> forces;
   ComponentList components;  // in the order in which they are added to a model
 };

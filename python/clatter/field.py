@@ -36,7 +36,7 @@ class Field(Artefact):
 
     @property
     def time(self) -> np.ndarray:
-        """Samples, n_t, 0 at firing TDC (of a scene without a crank: from the first sample) [s]."""
+        """Samples, n_t, 0 at crank angle 0, firing TDC of an engine (of a scene without a crank: from the first sample) [s]."""
         return self._read("time")
 
     @property

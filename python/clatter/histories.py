@@ -10,6 +10,11 @@ def crank_angle(run):
     return dataset(run, "history/crank_angle_deg")
 
 
+def angle_zero(file):
+    """What crank angle 0 of a run or field is, in words: "firing TDC"; "TDC" of an engine without gas, "the cycle's start" of other machines."""
+    return text(file.attrs.get("angle_zero", "firing TDC"))
+
+
 def history(run, name, unit):
     """One history; BadArtefact if the file's unit is not the expected one."""
     values = dataset(run, f"history/{name}")

@@ -53,7 +53,7 @@ class Run(Artefact):
 
     @property
     def crank_angle_deg(self) -> np.ndarray:
-        """Crank angle at these instants, n_t, 0 at firing TDC, rising through all cycles [deg]. Refused in a scene without a crank."""
+        """Crank angle at these instants, n_t, rising through all cycles; 0 is what `angle_zero` says, firing TDC of an engine [deg]. Refused in a scene without a crank."""
         return dataset(self.file, "output/crank_angle_deg")
 
     @property

@@ -78,7 +78,7 @@ XdmfSeries frame_series(const std::filesystem::path& field_file, int64_t n_nodes
                         const FrameIndex& frames) {
   XdmfSeries series = empty_series("frames", field_file, n_nodes, n_faces);
   series.values = frames.time_s;
-  series.value_unit = "s from firing TDC";
+  series.value_unit = "s from crank angle 0";
   add_fields(series, frames.quantities, "", 4);
   return series;
 }

@@ -33,7 +33,7 @@ struct XdmfSeries {
 /// The XML text of a series: a temporal collection of uniform grids of Triangle_6.
 std::string xdmf_text(const XdmfSeries& series);
 
-/// Frames of a field file; its time slider shows seconds from firing TDC.
+/// Frames of a field file; its time slider shows seconds from crank angle 0.
 XdmfSeries frame_series(const std::filesystem::path& field_file, int64_t n_nodes, int64_t n_faces,
                         const FrameIndex& frames);
 /// Complex lines of a field file; its time slider shows Hz.

@@ -67,9 +67,9 @@ void write_sensor_result(H5File& file, const std::string& at, const SensorResult
 }
 
 void write_axes(H5File& file, const std::string& at, const Analysis& analysis) {
-  put(file, at + "/time", analysis.time_s, "s", "samples, from firing TDC");
+  put(file, at + "/time", analysis.time_s, "s", "samples, from crank angle 0");
   if (analysis.angle_deg.size() > 0)
-    put(file, at + "/crank_angle_deg", analysis.angle_deg, "deg", "samples, from firing TDC");
+    put(file, at + "/crank_angle_deg", analysis.angle_deg, "deg", "samples, from crank angle 0");
   const Eigen::VectorXd& frequency_hz = analysis.velocity.frequency_hz;
   put(file, at + "/frequency_hz", frequency_hz, "Hz", "lines");
   if (analysis.speed_hz > 0.0)

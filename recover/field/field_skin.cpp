@@ -78,10 +78,10 @@ void describe_quantities(H5File& file, const std::string& group, const Quantitie
 
 void write_frame_axes(H5File& file, const FrameIndex& index) {
   file.write("frames/time", index.time_s);
-  describe(file, "frames/time", "s", "instant of each frame, from firing TDC");
+  describe(file, "frames/time", "s", "instant of each frame, from crank angle 0");
   if (index.angle_deg.empty()) return;
   file.write("frames/crank_angle_deg", index.angle_deg);
-  describe(file, "frames/crank_angle_deg", "deg", "crank angle of each frame, from firing TDC");
+  describe(file, "frames/crank_angle_deg", "deg", "crank angle of each frame");
 }
 
 /// Factor that takes a line of velocity to the quantity.

@@ -11,7 +11,8 @@
 namespace clatter::recover {
 
 inline constexpr const char* kPhase =
-    "x(t) = Re( X exp(+i 2 pi f t) ), t = 0 at firing TDC (at the first sample when nothing turns)";
+    "x(t) = Re( X exp(+i 2 pi f t) ), t = 0 at crank angle 0 (at the first sample when nothing "
+    "turns)";
 
 template <typename Values>
 void put(H5File& file, const std::string& name, const Values& values, const std::string& unit,

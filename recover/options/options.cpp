@@ -10,9 +10,10 @@ using keys::Keys;
 
 const Keys<Span>& span_keys() {
   static const Keys<Span> keys("span", "a part of the run", [](auto& key, Span& span) {
-    key.number("from_deg", span.from, {}, "begin, as a crank angle about firing top dead centre")
+    key.number("from_deg", span.from, {},
+               "begin, as a crank angle about 0, firing TDC of an engine")
         .unconverted();
-    key.number("to_deg", span.to, {}, "end, as a crank angle about firing top dead centre")
+    key.number("to_deg", span.to, {}, "end, as a crank angle about 0, firing TDC of an engine")
         .unconverted();
     key.number("from_s", span.from, {}, "begin, as a time of the run").required_with("to_s");
     key.number("to_s", span.to, {}, "end, as a time of the run").required_with("from_s");
@@ -82,9 +83,9 @@ const Keys<WindowRule>& window_keys() {
       [](auto& key, WindowRule& window) {
         key.name("name", window.name, "name of its results").required().distinct();
         key.part(window.span, span_keys());
-        const char* reason = "cycles begin at firing top dead centre";
+        const char* reason = "cycles begin at crank angle 0";
         key.number("cycles", window.cycles, {0.0, 1e5, true},
-                   "this many cycles of 720 degrees from firing top dead centre")
+                   "this many cycles of 720 degrees from crank angle 0, firing TDC of an engine")
             .excludes("from_deg", reason)
             .excludes("to_deg", reason)
             .excludes("from_s", reason)

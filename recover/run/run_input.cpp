@@ -53,6 +53,9 @@ RunClock read_clock(const H5File& file) {
     throw InputError(origin + ": " + kAngles +
                      ": found descending values, expected an ascending angle");
   clock.angle_deg = angle;
+  clock.angle_zero = file.has_attribute("/", run::kAngleZero)
+                         ? file.get_string("/", run::kAngleZero)
+                         : "firing TDC";
   return clock;
 }
 

@@ -127,8 +127,9 @@ Eigen::Index lines_of_table(const SoundTable& table, const LineSpectrum& velocit
 ThirdOctaves bands_of_table(const SoundTable& table, const Analysis& analysis,
                             const Options& options) {
   const LineSpectrum& velocity = analysis.velocity;
-  return third_octaves(options.spectrum.from_hz,
-                       std::min(table.to_hz(), velocity.frequency_hz.maxCoeff()),
+  const Eigen::VectorXd covered = velocity.frequency_hz.head(lines_of_table(table, velocity));
+  const double to_hz = std::min(table.to_hz(), velocity.frequency_hz.maxCoeff());
+  return third_octaves(options.spectrum.from_hz, covered_to_hz(covered, to_hz, velocity.periodic),
                        velocity.spacing_hz());
 }
 

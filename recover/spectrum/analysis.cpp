@@ -131,7 +131,10 @@ Analysis analyse(const RunBody& body, const Piece& piece, const Options& options
   Analysis analysis{.piece = piece, .speed_hz = piece.mean_speed_hz};
   set_axes(clock, analysis);
   analysis.velocity = first_segment(piece, v, to_hz);
-  analysis.bands = third_octaves(options.spectrum.from_hz, to_hz, analysis.velocity.spacing_hz());
+  const LineSpectrum& lines = analysis.velocity;
+  analysis.bands =
+      third_octaves(options.spectrum.from_hz,
+                    covered_to_hz(lines.frequency_hz, to_hz, lines.periodic), lines.spacing_hz());
   // One transform of a segment serves all panels: their powers are adjacent columns.
   const auto powers = [&](const LineSpectrum& velocity) {
     Eigen::MatrixXd columns(velocity.frequency_hz.size(), static_cast<Eigen::Index>(forms.size()));

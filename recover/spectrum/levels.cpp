@@ -29,6 +29,12 @@ ThirdOctaves third_octaves(double from_hz, double to_hz, double line_spacing_hz)
   return bands;
 }
 
+double covered_to_hz(const Eigen::VectorXd& frequency_hz, double to_hz, bool periodic) {
+  const Eigen::Index n = frequency_hz.size();
+  if (periodic || n < 2) return to_hz;
+  return std::min(to_hz, frequency_hz[n - 1] + 0.5 * (frequency_hz[1] - frequency_hz[0]));
+}
+
 std::string nominal_frequency(int n) {
   static constexpr double kSteps[] = {1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0};
   const int decade = n >= 0 ? n / 10 : -((9 - n) / 10);

@@ -19,6 +19,11 @@ struct ThirdOctaves {
 /// that each contains a line. May be empty.
 ThirdOctaves third_octaves(double from_hz, double to_hz, double line_spacing_hz);
 
+/// The end of what lines cover, at most `to_hz`, from where there are none: a line of a window
+/// covers half a spacing on each side (band_sums()), those of a periodic signal leave no gap.
+/// @param frequency_hz lines, ascending, equally spaced, at least one
+double covered_to_hz(const Eigen::VectorXd& frequency_hz, double to_hz, bool periodic);
+
 /// Nominal frequency of band n (0 is 1000 Hz) as text.
 std::string nominal_frequency(int n);
 

@@ -105,8 +105,21 @@ TEST_F(Runs, StoppedRunsLeaveAValidFileMarkedIncomplete) {
   EXPECT_FALSE(result.complete);
   const H5File back = testing::finished_file(described, load_bodies(described), result);
   EXPECT_EQ(back.get_int("/", "complete"), 0);
+  EXPECT_EQ(back.get_string("/", "angle_zero"), "firing TDC");
   EXPECT_EQ(back.read_doubles("output/time").size(), 1U);
   EXPECT_EQ(back.read_doubles("history/time").size(), 0U);
+}
+
+TEST_F(Runs, AnEngineWithoutGasDoesNotFire) {
+  EXPECT_EQ(scene().angle_zero, "firing TDC");
+  std::ifstream in(folder_ / "slap.run.toml");
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const size_t gas = text.find("[gas]");
+  ASSERT_NE(gas, std::string::npos);
+  text.erase(gas, text.find("\n[", gas) - gas);
+  std::ofstream(folder_ / "slap.run.toml") << text;
+  EXPECT_EQ(scene().angle_zero, "TDC");
+  EXPECT_EQ(scene("[gas]\ntable = \"motored.csv\"\n").angle_zero, "firing TDC");
 }
 
 TEST_F(Runs, RefusalsAreReportedByKindWithTheLastDetail) {

@@ -62,6 +62,23 @@ TEST(Levels, BandSumsKeepAllPowerAndGiveEachLineOneHome) {
   EXPECT_LT((shared - (bands.upper_hz - bands.lower_hz) / 10.0).cwiseAbs().maxCoeff(), 1e-9);
 }
 
+// A band whose end no line of a window covers would miss power: of a flat density each band has its
+// width.
+TEST(Levels, NoBandOfAWindowIsCutByTheLastLine) {
+  const double spacing = 200.0, to_hz = 1130.0;  // the band of 1 kHz ends at 1122, lines at 1100
+  const Eigen::VectorXd f = Eigen::VectorXd::LinSpaced(6, 0.0, 1000.0);
+  const auto bands = [&](bool periodic) {
+    return third_octaves(20.0, covered_to_hz(f, to_hz, periodic), spacing);
+  };
+  EXPECT_EQ(bands(true).nominal, std::vector<std::string>{"1000"});  // no line from 1000 to 1130
+  EXPECT_EQ(bands(false).size(), 0);
+  const ThirdOctaves cut = third_octaves(20.0, to_hz, spacing);
+  const double width = cut.upper_hz[0] - cut.lower_hz[0];
+  EXPECT_LT(band_sums(f, Eigen::VectorXd::Ones(6), cut, false)[0], 0.95 * width / spacing);
+  const Eigen::VectorXd more = Eigen::VectorXd::LinSpaced(7, 0.0, 1200.0);
+  EXPECT_EQ(third_octaves(20.0, covered_to_hz(more, 1250.0, false), spacing).size(), 1);
+}
+
 TEST(Levels, VelocityReferencesStandThirtyFourDecibelsApart) {
   const double v2 = 1e-8;
   EXPECT_NEAR(level_db(v2, 1e-18) - level_db(v2, 25e-16), 33.98, 0.005);

@@ -87,7 +87,7 @@ class Command(unittest.TestCase):
         said, _ = ball.export(self.folder, "-o", "t.csv", "--sensors", "--histories", "--quantity", "displacement")
         self.assertIn("5 histories of displacement, 31 instants each", said)
         comments, names, rows = table(self.folder / "t.csv")
-        self.assertIn("real values, time from firing TDC", comments[1])
+        self.assertIn("real values, time from crank angle 0", comments[1])
         self.assertEqual((names[:2], names[-1]), (["time_s", "sensor_a.x displacement_m"], "sensor_b.t displacement_rad"))
         np.testing.assert_allclose(rows[:, 0], ball.SENSOR_TIME, rtol=1e-11)
         for channel in range(5):

@@ -199,7 +199,7 @@ class Universal(unittest.TestCase):
             self.assertEqual((function["count"], len(function["values"])), (31, 31))
             np.testing.assert_allclose(function["first"] + function["step"] * np.arange(31), ball.SENSOR_TIME, atol=1e-8)
             np.testing.assert_allclose(function["values"], ball.sensor_history("acceleration", channel), rtol=1e-11)
-            self.assertIn("real values, time from firing TDC", function["ids"][1])
+            self.assertIn("real values, time from crank angle 0", function["ids"][1])
 
     @unittest.skipIf(gmsh is None, "Gmsh (package python3-gmsh) is not installed")
     def test_gmsh_reads_the_mesh(self):

@@ -13,7 +13,7 @@ import synthetic
 import synthetic_page
 from clatter import artefact, fields
 from clatter_tools import findings, orders, report, weighting
-from clatter_tools.plots import accelerations, campbell, film, piston, radiation, raster, shape
+from clatter_tools.plots import accelerations, campbell, film, over_cycle, piston, radiation, raster, shape
 
 
 def add_sound(path, power_at=600.0, dba=60.0):
@@ -168,6 +168,17 @@ class RunPictures(unittest.TestCase):
             self.assertEqual(axes[0, 1].get_xlim(), piston.AROUND_DEG)
             for whole, zoom in axes:
                 self.assertEqual(whole.get_ylim(), zoom.get_ylim())
+
+    def test_crank_angle_zero_is_called_what_the_scene_says(self):
+        path = self.folder / "pump.run.h5"
+        synthetic.write_run(path, film=False)
+        for zero in ("firing TDC", "TDC", "the cycle's start"):
+            with h5py.File(path, "a") as file:
+                file.attrs["angle_zero"] = np.bytes_(zero.encode())
+            axes = piston.draw([path]).axes
+            self.assertEqual([axes[1].get_title(loc="left"), axes[-2].get_xlabel()], [f"around {zero}", f"crank angle [deg], 0 = {zero}"])
+            with h5py.File(path) as file:
+                self.assertEqual(over_cycle.LastCycle(file).label, f"crank angle [deg], 0 = {zero}")
 
     def test_a_campbell_diagram_fills_what_lies_below_the_first_half_order(self):
         spectra = [(speed, 0.5 * np.arange(61), np.full(61, 1e-4), "W^0.5") for speed in (1000.0, 2000.0)]

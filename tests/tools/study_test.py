@@ -242,6 +242,10 @@ class Refused(StandIns):
         self.refused('name = "modes"', 'name = "tolerance"', "found two tables [[setting]] named tolerance")
         self.refused('file = "slap.field.h5"', 'file = "slip.field.h5"', "No rule to make target 'slip.field.h5'")
         self.refused("part.rom.toml:basis.n", "field.toml:b.n", "field.toml: found no b.n")
+        self.refused("[4.0, 2.0,", "[nan, 2.0,", "setting[0].values: found nan, expected a number, text, true or false")
+        self.refused("[4.0, 2.0,", "[2, 2.0,", "setting[0].values: found a value twice")
+        self.refused('name = "value"', 'name = "of-the part"',
+                     "found two tables [[quantity]] whose pictures are of-the-part.png, as of-the part: expected names that differ")
         self.refused('\n[[setting]]', 'pipeline = 3\n[[setting]]', "pipeline: found 3, expected a path")
         self.refused('\n[[setting]]', 'reuse = true\ncost = "processor"\n[[setting]]', "reuse = true needs cost = \"seconds\"")
         self.refused('unit = "N"', "unit = 3", "quantity[0].unit: found 3, expected a text")

@@ -62,7 +62,9 @@ class Values(unittest.TestCase):
                                ("a=1:2:-1", "1:2:-1: the step does not lead from 1 to 2"),
                                ("a=1:2:0", "1:2:0: the step does not lead from 1 to 2"),
                                ("a=0:1e9:1", "0:1e9:1: found 1000000001 values, expected at most 100000"),
-                               ("a=1,2,1", "a=1,2,1: found a value twice or an empty one")):
+                               ("a=1,2,1", "a=1,2,1: found a value twice or an empty one"),
+                               ("a=1000,1e3", "a=1000,1e3: found a value twice or an empty one"),
+                               ('a="x","y"', 'a="x","y": not TOML, expected one value, or several without brackets and quotes, as a=a,b')):
             with self.assertRaises(BadArtefact) as refused:
                 sweep.parse(argument)
             self.assertEqual(str(refused.exception), said)
@@ -70,6 +72,52 @@ class Values(unittest.TestCase):
             sweep.read_keys(["a=1", "a=2"])
         with self.assertRaisesRegex(BadArtefact, "^found 1002001 combinations, expected at most 100000$"):
             sweep.read_keys(["a=0:1000:1", "b=0:1000:1"])
+
+
+class Keys(unittest.TestCase):
+    """What scenes cannot have is said before any is written."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        (self.folder / "below.run.toml").write_text('[engine]\nspeed_rpm = 1\n[[stop]]\nname = "wall"\n[[mount]]\nsets = ["a"]\n')
+        (self.folder / "slap.run.toml").write_text('base = "below.run.toml"\n[stop.wall]\nfriction = 0.1\n')
+
+    def swept(self, *arguments):
+        """(code, the last line) of the command."""
+        done = clatter("sweep", "slap.run.toml", *arguments, "-o", "made", folder=self.folder)
+        return done.returncode, (done.stderr or done.stdout).strip().split("\n")[-1].removeprefix("clatter: error: ")
+
+    def test_misspelt_keys_and_impossible_values_are_refused_with_what_is_meant(self):
+        for argument, said in (
+                ("engine.speed_rmp=1000,2000", "engine.speed_rmp: unknown key speed_rmp, did you mean speed_rpm?"),
+                ("stop.wal.friction=0.1,0.2", "stop.wal.friction: found no [[stop]] wal in the base, expected one of: wall"),
+                ("spring.a.friction=1", "spring.a.friction: found no [[spring]] a in the base, expected one of: none, it has no such table"),
+                ("mount.1.sets=[\"b\"]", "mount.1.sets: found no [[mount]] 1 in the base, expected one of: 0"),
+                ("engine.speed_rpm.x=1", "engine.speed_rpm.x: found x below speed_rpm, which is no table"),
+                ("stop.wall=1", "stop.wall: found a table, expected a key of it, as stop.wall.name"),
+                ("engine=3", "engine: found 3, expected a table"),
+                ("engine.speed_rpm=fast", "engine.speed_rpm: found 'fast', expected a number at least 0.01 at most 100000"),
+                ("contact.lubrication=film,oil", "contact.lubrication: found 'oil', expected one of: film, none"),
+                ("engine.speed_rpm=1000,nan", "engine.speed_rpm: found nan, expected a finite number"),
+                ("stop.wall.normal=[0, 0, inf]", "stop.wall.normal: found [0, 0, inf], expected a finite number"),
+                ("base=other.run.toml", "base: found it as a key, expected another one: the base of the scenes is slap.run.toml"),
+                ("é=1", "é: no key of TOML, expected names joined by points, such as engine.speed_rpm")):
+            self.assertEqual(self.swept(argument), (2, said))
+            self.assertFalse((self.folder / "made").exists(), argument)
+
+    def test_keys_of_the_base_and_new_ones_are_accepted(self):
+        code, line = self.swept("stop.wall.friction=0.1,0.2", "engine.pin_offset_mm=0.5", "mount=[]")
+        self.assertEqual(code, 0, line)
+        self.assertEqual(sorted(path.name for path in (self.folder / "made").iterdir()), ["0.1.run.toml", "0.2.run.toml", "sweep.mk"])
+
+    def test_keys_of_which_one_is_a_part_of_the_other_are_refused(self):
+        self.assertEqual(self.swept("stop=[]", "stop.wall.friction=0.1"), (2, "stop.wall.friction and stop exclude each other: one is a part of the other"))
+
+    def test_parameters_are_checked_alike(self):
+        (self.folder / "p.toml").write_text('[[parameter]]\nname = "speed"\nvalues = [1]\nkeys = { "engine.sped_rpm" = "{}" }\n')
+        self.assertEqual(self.swept("--parameters", "p.toml"), (2, "engine.sped_rpm: unknown key sped_rpm, did you mean speed_rpm?"))
 
 
 class Command(unittest.TestCase):

@@ -18,7 +18,7 @@ DIRECTION = np.array([0.6, 0.0, 0.8])
 WAVE = np.array([7.0, 2.0, -3.0])  # [rad/m]
 FREQUENCIES = (100.0, 250.0, 1033.25)
 TIMES = (-2e-4, 0.0, 3e-4, 5e-4)
-PHASE = "x(t) = Re( X exp(+i 2 pi f t) ), t = 0 at firing TDC (at the first sample when nothing turns)"
+PHASE = "x(t) = Re( X exp(+i 2 pi f t) ), t = 0 at crank angle 0 (at the first sample when nothing turns)"
 
 
 def sphere():

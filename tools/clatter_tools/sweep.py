@@ -9,7 +9,7 @@ import re
 import tomllib
 
 from clatter.artefact import BadArtefact, CannotWrite, stem
-from . import parameters
+from . import parameters, scene_keys
 from .keys.schema_line import schema_line
 from .whole_file import whole_file
 
@@ -71,9 +71,36 @@ def parse(argument):
         raise BadArtefact(f"{argument}: expected key=values, as engine.speed_rpm=1000:3000:50")
     key, text = found.groups()
     values = number_range(text) or ([text] if text[0] in "[{\"'" else text.split(","))
-    if len(set(values)) < len(values) or "" in values:
+    if len({same(value) for value in values}) < len(values) or "" in values:
         raise BadArtefact(f"{argument}: found a value twice or an empty one")
+    if text[0] in "[{\"'" and literal(text) != text:
+        raise BadArtefact(f"{argument}: not TOML, expected one value, or several without brackets and quotes, as {key}=a,b")
     return key, values
+
+
+def value_of(text):
+    """The value that a scene gets."""
+    return tomllib.loads(f"v = {literal(text)}")["v"]
+
+
+def same(text):
+    """Of values that are the same the same: 1000, 1000.0 and 1e3."""
+    value = value_of(text)
+    return float(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else repr(value)
+
+
+def check_keys(base, scenes):
+    """BadArtefact for a key that scenes over `base` have not, and for a value that it cannot have; `scenes`: {key: text} of each."""
+    known, table = scene_keys.scene(base), scene_keys.table_of_scenes()
+    for key, text in dict.fromkeys(change for one in scenes for change in one.items()):
+        if scene_keys.steps_of(key) == ["base"]:
+            raise BadArtefact(f"base: found it as a key, expected another one: the base of the scenes is {base}")
+        scene_keys.check(known, key, value_of(text), table)
+    for one in scenes:
+        for key, other in itertools.permutations(one, 2):
+            steps = scene_keys.steps_of(other)
+            if scene_keys.steps_of(key)[:len(steps)] == steps:
+                raise BadArtefact(f"{key} and {other} exclude each other: one is a part of the other")
 
 
 def file_names(combinations):
@@ -136,6 +163,7 @@ def write_scenes(base, folder, texts, field, own_fields):
 
 def write_files(base, folder, keys, combinations, field):
     """The scenes of all combinations; returns their number."""
+    check_keys(base, [dict(zip(keys, values)) for values in combinations])
     names = file_names(combinations)
     write_scenes(base, folder, {name: scene_text(keys, values) for name, values in zip(names, combinations)}, field, {})
     return len(names)
@@ -147,6 +175,7 @@ def write_parameters(base, folder, file, keys, field):
     if len(combinations) > 1:
         raise BadArtefact(f"{', '.join(keys)}: several values and --parameters exclude each other: give one of each key")
     scenes = parameters.scenes(parameters.read(file))
+    check_keys(base, [dict(zip(names, combinations[0])), *(one.keys for one in scenes)])
     texts = {one.name: scene_text([*one.keys, *names], [*one.keys.values(), *combinations[0]], one.title) for one in scenes}
     write_scenes(base, folder, texts, field, {one.name: one.field for one in scenes if one.field})
     return len(texts)

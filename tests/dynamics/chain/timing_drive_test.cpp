@@ -308,6 +308,7 @@ TEST_F(TimingDriveScene, CyclesAreThoseOfADriveThatTurns) {
   ASSERT_TRUE(read.clock);
   EXPECT_NEAR(read.clock->cycle(), 120.0 / 3400.0, 1e-15);  // it turns backwards
   EXPECT_EQ(read.time.ramp, 0.0);
+  EXPECT_EQ(read.angle_zero, "the cycle's start");
   test::expect_parts(test::refusal_of([&] { with("arm"); }),
                      {"time.cycle_of: found \"arm\", expected the name of a [[drive]]"});
   drive.rpm = 0.0;

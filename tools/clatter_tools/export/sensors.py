@@ -48,7 +48,7 @@ class Channels:
 
     def convention(self):
         return f"peak amplitudes, {self.origin.phase}" if self.is_spectrum else \
-            "real values, time from firing TDC (from the first sample when nothing turns)"
+            "real values, time from crank angle 0 (from the first sample when nothing turns)"
 
 
 def read_channels(file, quantity, histories):

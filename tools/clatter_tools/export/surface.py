@@ -52,7 +52,7 @@ class Origin:
     """What the head of a written file says about its source."""
     body: str
     file: str              # name of the source
-    phase: str             # "x(t) = Re( X exp(+i 2 pi f t) ), t = 0 at firing TDC ..."
+    phase: str             # "x(t) = Re( X exp(+i 2 pi f t) ), t = 0 at crank angle 0 ..."
     air_density: float     # [kg/m3]
     air_sound_speed: float  # [m/s]
 
@@ -87,7 +87,7 @@ class Motion:
 
     def convention(self):
         """One line on phase or time, for the head of a file."""
-        return f"peak amplitudes, {self.origin.phase}" if self.is_complex else "real values, time from firing TDC (from the first sample when nothing turns)"
+        return f"peak amplitudes, {self.origin.phase}" if self.is_complex else "real values, time from crank angle 0 (from the first sample when nothing turns)"
 
     def parts(self, quantity):
         """Names of the real arrays that hold a quantity, with the functions that form them."""

@@ -37,7 +37,7 @@ function instantPlot(surface) {
   surface.plot = new Plot({
     title: "Velocity of the skin over the cycle",
     height: 22,
-    x: { label: run.angle ? "crank angle [deg], 0 = firing TDC" : "time [ms]", angles: Boolean(run.angle) },
+    x: { label: run.angle ? `crank angle [deg], 0 = ${page.zero}` : "time [ms]", angles: Boolean(run.angle) },
     y: { label: "RMS over nodes, without rigid motion [mm/s]", min: 0 },
     lines: [{ run: run.run, x: angle, y: surface.sizes().map(one => 1e3 * one), wide: 1.2 }],
     pick: at => {

@@ -25,7 +25,7 @@ async function filmSection() {
   );
   const over = new Plot({
     title: "Largest and mean over the cycle",
-    x: { label: "crank angle [deg], 0 = firing TDC", angles: true },
+    x: { label: `crank angle [deg], 0 = ${page.zero}`, angles: true },
     y: {},
     lines: [],
     pick: angle => go(nearestIndex(state.angle, angle)),

@@ -65,7 +65,7 @@ async function radiationSection() {
   });
   const over = new Plot({
     title: "Velocity over the cycle",
-    x: { label: "crank angle [deg], 0 = firing TDC", angles: true },
+    x: { label: `crank angle [deg], 0 = ${page.zero}`, angles: true },
     y: { min: 0 },
     marks: turning ? [0] : [],
     lines: [],

@@ -57,8 +57,8 @@ async function sensorsSection() {
     signal.update({
       title: `${capital(quantity)} of ${state.label} ${span}${state.limited ? `, above ${page.sensors.from_hz} Hz` : ""}`,
       x: angled
-        ? { label: "crank angle [deg], 0 = firing TDC", angles: true }
-        : { label: turning ? "time after firing TDC [ms]" : "time [ms]" },
+        ? { label: `crank angle [deg], 0 = ${page.zero}`, angles: true }
+        : { label: turning ? `time after ${page.zero} [ms]` : "time [ms]" },
       y: { label: `${quantity} [${unit}]` },
       marks: turning ? [0] : [],
       lines: drawn.map(({ run, values }) => ({
@@ -112,7 +112,7 @@ async function sensorsSection() {
       refresh();
     },
   );
-  const firing = checkbox("only around firing TDC", false, on => signal.show(on ? aroundFiring(runs[0], state) : null));
+  const firing = checkbox(`only around ${page.zero}`, false, on => signal.show(on ? aroundFiring(runs[0], state) : null));
   host.append(
     element(
       "div",
@@ -203,7 +203,7 @@ async function refreshMap(map, run, channel, label) {
   map.update({
     title: `Spectrogram of the acceleration of ${label}: ${runName(run.run)}`,
     x: {
-      label: run.deg ? "crank angle [deg], 0 = firing TDC" : "time [ms]",
+      label: run.deg ? `crank angle [deg], 0 = ${page.zero}` : "time [ms]",
       angles: Boolean(run.deg),
       edges: evenEdges(factor * first, (factor * span) / columns, columns),
     },

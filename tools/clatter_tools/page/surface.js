@@ -250,7 +250,7 @@ class Surface {
         run.angle
           ? `${run.angle[this.instant].toFixed(1)}° crank angle, ${figure(1e3 * run.time[this.instant])} ms`
           : `${figure(1e3 * run.time[this.instant], 4)} ms`,
-        `after firing TDC; colours to ${figure(factor * this.limit.normal)} ${unit}; ${shapesText(this.shapes, run.instant_error, "at most ")}`,
+        `${run.angle ? `after ${page.zero}; ` : ""}colours to ${figure(factor * this.limit.normal)} ${unit}; ${shapesText(this.shapes, run.instant_error, "at most ")}`,
       ],
       mode: () => [
         `elastic mode ${this.mode + 1}: ${figure(this.part.modes.hz[this.mode], 5)} Hz`,

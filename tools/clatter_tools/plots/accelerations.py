@@ -2,6 +2,7 @@
 """Acceleration of liner and block around firing TDC, as in figures 9 and 10 of the paper."""
 from clatter import fields
 from clatter.artefact import BadArtefact, dataset
+from clatter.histories import angle_zero
 from .. import slap
 from . import octaves, style
 
@@ -49,19 +50,19 @@ def draw_cycle(axis, runs, signals):
         x = dataset(run, f"{at}/crank_angle_deg") if turned else 1e3 * time
         axis.plot(x, values, linewidth=0.6, **colour(number))
     if turned:
-        style.crank_axis(axis, x, 180)
+        style.crank_axis(axis, x, angle_zero(runs[0][0]), 180)
     else:
-        axis.set_xlabel("time after firing TDC [ms]")
-    style.mark_firing(axis)
+        axis.set_xlabel(f"time after {angle_zero(runs[0][0])} [ms]")
+    style.mark_zero(axis)
 
 
 def draw_zoom(axis, runs, signals):
     for number, (time, values) in enumerate(signals):
         window = (time * 1e3 >= SHOWN_MS[0]) & (time * 1e3 <= SHOWN_MS[1])
         axis.plot(time[window] * 1e3, values[window], linewidth=1.2, **colour(number))
-    style.mark_firing(axis)
+    style.mark_zero(axis)
     axis.set_xlim(*SHOWN_MS)
-    axis.set_xlabel("time after firing TDC [ms]")
+    axis.set_xlabel(f"time after {angle_zero(runs[0][0])} [ms]")
 
 
 def draw_bands(axes, runs, sensors):

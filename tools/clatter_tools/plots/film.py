@@ -4,7 +4,7 @@ import numpy as np
 
 from clatter.artefact import BadArtefact, dataset
 from clatter.films import contacts
-from clatter.histories import centred, last_cycle
+from clatter.histories import angle_zero, centred, last_cycle
 from . import style
 
 AT_DEG = (-20.0, 0.0, 10.0, 20.0, 90.0)
@@ -36,7 +36,7 @@ def draw(files, at_deg=AT_DEG):
         figure.colorbar(image, cax=figure.add_subplot(grid[row, -1]), label=f"{name} [{unit}]", extend="max" if held < 1.0 else "neither")
         if row == 0:
             for axis, angle in zip(axes[::len(pads)], angles):
-                axis.set_title("firing TDC" if abs(angle) < 0.5 else f"{angle:+.0f} deg", loc="left", fontsize=10)
+                axis.set_title(angle_zero(run) if abs(angle) < 0.5 else f"{angle:+.0f} deg", loc="left", fontsize=10)
     label_pads(axes, pads)
     figure.text(0.49, 0.02, "angle around the piston [deg]: 0 thrust side, 180 antithrust side", ha="center", fontsize=10)
     figure.text(0.01, 0.5, "height above the pin [mm]", va="center", rotation=90, fontsize=10)

@@ -4,7 +4,7 @@ import numpy as np
 
 from clatter import chains
 from clatter.artefact import BadArtefact, dataset
-from clatter.histories import centred, has, time_weights
+from clatter.histories import angle_zero, centred, has, time_weights
 from . import style
 
 
@@ -14,7 +14,7 @@ class LastCycle:
 
     def __init__(self, run):
         self.run = run
-        self.label = "crank angle [deg], 0 = firing TDC" if has(run, "crank_angle_deg") else "crank angle in the last cycle [deg]"
+        self.label = f"crank angle [deg], 0 = {angle_zero(run)}" if has(run, "crank_angle_deg") else "crank angle in the last cycle [deg]"
         try:
             angle = chains.crank_angle(run)
         except BadArtefact:
@@ -40,7 +40,7 @@ class LastCycle:
 
     def finish(self, axis):
         """Limits, ticks and label of the axis below."""
-        style.crank_axis(axis, self.x)
+        style.crank_axis(axis, self.x, angle_zero(self.run))
         axis.set_xlabel(self.label)
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The piston's secondary motion over crank angle."""
 from clatter.artefact import BadArtefact
-from clatter.histories import centred, crank_angle, cylinders, has, history, last_cycle, of
+from clatter.histories import angle_zero, centred, crank_angle, cylinders, has, history, last_cycle, of
 from . import style
 
 # History, unit, factor, name. The last ones are of a contact with the liner.
@@ -23,12 +23,13 @@ def draw(files):
                 draw_history(row, run, of(cylinder, name), unit, factor, number)
         row[0].set_ylabel(words)
     for axis in axes.flat:
-        style.mark_firing(axis)
-    style.crank_axis(axes[-1, 0], [-360, 360])
+        style.mark_zero(axis)
+    zero = angle_zero(pistons[0][0])
+    style.crank_axis(axes[-1, 0], [-360, 360], zero)
     axes[-1, 1].set_xlim(AROUND_DEG)
     axes[-1, 1].set_xticks(range(AROUND_DEG[0], AROUND_DEG[1] + 1, 15))
     axes[-1, 1].set_xlabel("crank angle [deg]")
-    axes[0, 1].set_title("around firing TDC", loc="left", fontsize=10)
+    axes[0, 1].set_title(f"around {zero}", loc="left", fontsize=10)
     style.legend_above(figure, axes[0, 0].get_lines()[:len(pistons)], [style.label(*one) for one in pistons],
                        "Secondary motion of the piston, positive toward the thrust side")
     return figure

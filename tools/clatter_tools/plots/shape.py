@@ -5,6 +5,7 @@ import re
 import numpy as np
 
 from clatter.artefact import BadArtefact, dataset, text
+from clatter.histories import angle_zero
 from . import raster, style
 from ..weighting import a_weight, level_dba
 
@@ -128,7 +129,7 @@ def strongest_instant(field):
     moved = [elastic_part(field, field[f"frames/velocity/{name}"][()].astype(float)) for name in names]
     best = int(np.argmax([mean_square(field, velocity) for velocity in moved]))
     time = f"{dataset(field, 'frames/time')[best] * 1e3:.2f} ms"
-    when = f"{time} after firing TDC" if "frames/crank_angle_deg" in field else f"After {time}"
+    when = f"{time} after {angle_zero(field)}" if "frames/crank_angle_deg" in field else f"After {time}"
     return f"{when},\nthe strongest of {len(names)} frames", moved[best]
 
 

@@ -106,16 +106,16 @@ def mark_limit(axis, position, words, shade=False):
                   rotation=90, ha="right", va="top", fontsize=8, color="#555555")
 
 
-def mark_firing(axis, position=0.0):
-    """A thin line at firing top dead centre."""
+def mark_zero(axis, position=0.0):
+    """A thin line at crank angle 0."""
     axis.axvline(position, color="#888888", linewidth=0.8, linestyle=":")
 
 
-def crank_axis(axis, angle, step=90):
-    """Ticks every `step` degrees over a complete cycle, else the default ones."""
+def crank_axis(axis, angle, zero, step=90):
+    """Ticks every `step` degrees over a complete cycle, else the default ones; `zero`: what crank angle 0 is."""
     axis.set_xlim(angle[0], angle[-1])
     if angle[-1] - angle[0] > 300:
         first, last = (int(round(end / step)) * step for end in (angle[0], angle[-1]))
         axis.set_xlim(first, last)
         axis.set_xticks(range(first, last + 1, step))
-    axis.set_xlabel("crank angle [deg], 0 = firing TDC")
+    axis.set_xlabel(f"crank angle [deg], 0 = {zero}")

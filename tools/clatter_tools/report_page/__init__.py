@@ -9,6 +9,7 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from clatter import artefact
+from clatter.histories import angle_zero
 from . import (accuracy, certificates, cost, drive, film_maps, mechanism, models, radiation, sensors, sound, speeds, summary, surface)
 from ..plots import style
 from ..whole_file import whole_file
@@ -56,6 +57,7 @@ def collect(folder, pack):
         "version": version(folder),
         "runs": [{"label": one.label, "stem": one.stem} for one in folder.runs],
         "many": folder.many,
+        "zero": zero_of(folder),
         "run_colours": style.COLOURS,
         "colours": {name: colour_table(own) for name, own in COLOURS.items()},
         "summary": summary.collect(folder, cards),
@@ -72,6 +74,12 @@ def collect(folder, pack):
         "accuracy": accuracy.collect(folder),
         "cost": cost.collect(folder),
     }
+
+
+def zero_of(folder):
+    """What crank angle 0 is; words that hold for all runs where they differ."""
+    found = {angle_zero(file) for one in folder.runs for file in (one.run, one.field) if file is not None}
+    return found.pop() if len(found) == 1 else "the cycle's start"
 
 
 def version(folder):

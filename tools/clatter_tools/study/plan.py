@@ -7,6 +7,7 @@ import tomllib
 from clatter.artefact import BadArtefact
 from . import quantities
 from ..keys import rows, study_keys
+from ..parameters import slug
 
 MOST_VALUES = 100
 
@@ -93,6 +94,10 @@ def read(path, required="setting"):
         for name in names:
             if names.count(name) > 1:
                 raise BadArtefact(f"{path}: found two tables [[{kind}]] named {name}, expected a name for each")
+    slugs = [slug(one.name) for one in wanted]
+    for one, own in zip(wanted, slugs):
+        if slugs.count(own) > 1:
+            raise BadArtefact(f"{path}: found two tables [[quantity]] whose pictures are {own}.png, as {one.name}: expected names that differ in letters and digits")
     keys = [key for one in settings for key in one.keys]
     for file, steps in keys:
         if keys.count((file, steps)) > 1:

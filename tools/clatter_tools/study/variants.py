@@ -7,6 +7,8 @@ import re
 from clatter.artefact import BadArtefact
 from . import toml_text
 from .plan import step_sizes
+from .. import scene_keys
+from ..keys import files
 
 BASE, REFINED = "base", "all refined"
 
@@ -58,10 +60,23 @@ def base_of(plan, pipeline, setting):
             raise BadArtefact(f"{where}: {'.'.join(path)}: found a table or list, expected a number, text, true or false")
         if value is None and setting.base is None:
             raise BadArtefact(f"{where}: found no {'.'.join(path)}, expected it there, or its default as base of the setting")
+        if value is None:
+            check_new(where, pipeline.folder / file, path, setting, number)
         if value is not None and setting.base is not None and value != setting.base[number]:
             raise BadArtefact(f"{where}: {'.'.join(path)}: found {value}, expected {setting.base[number]} as base of the setting says")
         found.append(setting.base[number] if value is None else value)
     return tuple(found)
+
+
+def check_new(where, file, path, setting, number):
+    """BadArtefact for a key that is not in a file and that its program does not know, or does not know with the setting's values."""
+    kind = file.name.removesuffix(".toml").rpartition(".")[2]
+    table = files.read([kind])[0].get(kind) if kind in files.KINDS else None
+    for value in (setting.base, *setting.values):
+        try:
+            scene_keys.check(scene_keys.scene(file), ".".join(map(toml_text.key_text, path)), value[number], table)
+        except BadArtefact as error:
+            raise BadArtefact(f"{where}: {error}") from error
 
 
 def variants_of(plan, base):
