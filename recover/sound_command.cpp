@@ -46,8 +46,11 @@ void make_sound(const SoundArguments& a, const CommonOptions& common) {
   const rom::ReducedModel model = rom::read_reduced_model(a.rom);
   const std::string rom_sha256 = sha256_of_file(a.rom);
   clock.lap("read");
+  const EarlierSamples earlier = [&](const PartSound& sound) {
+    return earlier_samples(a.output, rom_sha256, sound);
+  };
   const PartSound sound =
-      with_context(a.rom.string(), [&] { return part_sound(model, options, clock); });
+      with_context(a.rom.string(), [&] { return part_sound(model, options, clock, earlier); });
   std::vector<std::filesystem::path> inputs{a.rom};
   if (!a.config.empty()) inputs.push_back(a.config);
   write_artefact(a.output, {kSoundSchema, resolved, inputs}, clock, common,
@@ -67,6 +70,8 @@ void declare_sound(CommandLine& program) {
       "  clatter-recover sound block.rom.h5 -c block.sound.toml -o block.sound.h5\n"
       "Once per part; then name it in a field.toml, `sound = \"block.sound.h5\"`: every run of the "
       "part\ngets sound power and pressures at the microphones in a second.\n"
+      "Where the output is there already, from the same part, skin and space, only its microphones "
+      "and new\nfrequencies are computed.\n"
       "What may be in a sound.toml: clatter-recover keys sound.toml.");
   const auto a = std::make_shared<SoundArguments>();
   line.positional("rom", a->rom, "reduced part with a skin, block.rom.h5");

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <deque>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
@@ -32,10 +34,11 @@ class Sampler {
  public:
   /// @param velocity 3 n_f x r, @param flow n_v x r: of the acoustic skin, per coordinate
   Sampler(const sound::Space& space, const Eigen::MatrixXd& velocity, const RowMatrix& flow,
-          PartSound& sound)
+          std::vector<SoundSample> earlier, PartSound& sound)
       : space_(space),
         velocity_(velocity),
         flow_(flow),
+        earlier_(std::move(earlier)),
         sound_(sound),
         source_(sound::inner_point(sound.skin, kDepth * sound.skin.mean_edge)) {
     if (!source_) say("acoustic skin: the body is too thin to be checked by a point source inside");
@@ -45,6 +48,21 @@ class Sampler {
   }
 
   SoundSample operator()(double frequency_hz) {
+    const auto known = std::find_if(
+        earlier_.begin(), earlier_.end(),
+        [&](const SoundSample& sample) { return sample.frequency_hz == frequency_hz; });
+    SoundSample sample = known != earlier_.end() ? std::move(*known) : solved(frequency_hz);
+    const sound::SurfaceState state{frequency_hz, velocity_.cast<sound::Complex>(),
+                                    sample.pressure.cast<sound::Complex>()};
+    sample.H = sound::field_pressure(sound_.skin, space_, state, points_);
+    sample.R = far_field_resistance(space_, sample.far, flow_);
+    note(sample.checks);
+    return sample;
+  }
+
+ private:
+  /// By boundary elements, without R and H.
+  SoundSample solved(double frequency_hz) const {
     const Eigen::Index r = velocity_.cols();
     Eigen::MatrixXcd motions = velocity_.cast<sound::Complex>();
     double exact = 0.0;
@@ -58,38 +76,45 @@ class Sampler {
     const sound::SurfaceState state = equations.radiate(motions);
     const Eigen::VectorXd power = sound::far_power(sound_.skin, space_, state);
     SoundSample sample{frequency_hz, {}, {}, {}};
-    sample.H = sound::field_pressure(sound_.skin, space_, state, points_).leftCols(r);
+    sample.pressure = state.pressure.leftCols(r).cast<std::complex<float>>();
     sample.far =
         stored_far_field(sound::far_harmonics(sound_.skin, space_, equations).of_flow, flow_);
-    sample.R = far_field_resistance(space_, sample.far, flow_);
-    note_errors(state, power, sample);
-    if (source_) note_source(state, exact, power[r]);
+    sample.checks = checks(state, power, far_field_resistance(space_, sample.far, flow_));
+    if (source_) check_source(state, exact, power[r], sample.checks);
     return sample;
   }
 
- private:
-  /// Of the point source, the last motion of `state`.
-  /// @param exact, far its power, and that from the far field in directions
-  void note_source(const sound::SurfaceState& state, double exact, double far) {
+  /// @param exact, far power of the point source, the last motion of `state`, and that from the far
+  /// field in directions
+  void check_source(const sound::SurfaceState& state, double exact, double far,
+                    SampleChecks& checks) const {
     const sound::SurfaceState last{state.frequency_hz, state.velocity.rightCols(1),
                                    state.pressure.rightCols(1)};
     const double near = sound::surface_power(sound_.skin, last)[0];
-    const auto raise = [](std::optional<double>& highest, double value) {
-      highest = std::max(highest.value_or(0.0), value);
-    };
-    raise(sound_.certificate.monopole_error_db, decibels(far, exact));
-    raise(sound_.certificate.surface_power_error_db, decibels(near, far));
+    checks.monopole_error = decibels(far, exact);
+    checks.surface_power_error = decibels(near, far);
   }
 
   /// @param power from the far field in directions, of all motions
-  void note_errors(const sound::SurfaceState& state, const Eigen::VectorXd& power,
-                   const SoundSample& sample) {
-    SoundCertificate& certificate = sound_.certificate;
-    const auto raise = [](double& highest, double value) { highest = std::max(highest, value); };
-    raise(certificate.highest_condition, state.condition);
+  SampleChecks checks(const sound::SurfaceState& state, const Eigen::VectorXd& power,
+                      const Eigen::MatrixXd& R) const {
+    SampleChecks found{.condition = state.condition};
     for (Eigen::Index j = 0; j < velocity_.cols(); ++j)
       if (power[j] > 0.0)
-        raise(certificate.far_field_error_db, decibels(0.5 * sample.R(j, j), power[j]));
+        found.far_field_error = std::max(found.far_field_error, decibels(0.5 * R(j, j), power[j]));
+    return found;
+  }
+
+  void note(const SampleChecks& checks) {
+    SoundCertificate& certificate = sound_.certificate;
+    const auto raise = [](std::optional<double>& highest, const std::optional<double>& value) {
+      if (value) highest = std::max(highest.value_or(0.0), *value);
+    };
+    raise(certificate.monopole_error_db, checks.monopole_error);
+    raise(certificate.surface_power_error_db, checks.surface_power_error);
+    certificate.highest_condition = std::max(certificate.highest_condition, checks.condition);
+    certificate.far_field_error_db =
+        std::max(certificate.far_field_error_db, checks.far_field_error);
   }
 
   static constexpr double kDepth = 0.4;  // of the point source, in mean edges
@@ -97,6 +122,7 @@ class Sampler {
   const sound::Space& space_;
   const Eigen::MatrixXd& velocity_;
   const RowMatrix& flow_;
+  std::vector<SoundSample> earlier_;
   PartSound& sound_;
   std::optional<Eigen::Vector3d> source_;
   RowMatrix points_;
@@ -227,8 +253,8 @@ void place_microphones(const SoundOptions& options, const sound::Surface& skin, 
 
 }  // namespace
 
-PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options,
-                     StepClock& clock) {
+PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options, StepClock& clock,
+                     const EarlierSamples& earlier) {
   check_limit(model, options);
   const sound::Space space = options.space();
   PartSound out;
@@ -266,7 +292,10 @@ PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options
   const rom::SkinRows T(model.skin.T);
   const RowMatrix flow =
       group_flows(table.flow, model.skin.triangles, T, one, 1, out.skin.node_count()).front();
-  Sampler sampler(space, velocity, flow, out);
+  std::vector<SoundSample> known = earlier ? earlier(out) : std::vector<SoundSample>();
+  if (!known.empty())
+    say(fmt::format("{} frequencies of the earlier file are taken over", known.size()));
+  Sampler sampler(space, velocity, flow, std::move(known), out);
   refine(options.grid, sampler, out);
   out.efficiency = efficiencies(table, squares(out.skin, velocity));
   clock.lap("boundary elements");

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
+#include <tuple>
+#include <utility>
 
 #include "core/base/artefact.hpp"
 #include "core/base/error.hpp"
@@ -41,11 +44,11 @@ void write_microphones(H5File& file, const SoundTable& table) {
 }
 
 void write_single(H5File& file, const std::string& name, const RowMatrix& values,
-                  const std::string& meaning) {
+                  const std::string& meaning, const char* unit = "Pa s/m2") {
   const Eigen::Map<const Eigen::VectorXd> flat(values.data(), values.size());
   const std::vector<float> single(flat.begin(), flat.end());
   file.write_float(name, single, {values.rows(), values.cols()});
-  file.set(name, "unit", "Pa s/m2");
+  file.set(name, "unit", unit);
   file.set(name, "meaning", meaning);
 }
 
@@ -62,6 +65,38 @@ void write_far_fields(H5File& file, const SoundTable& table) {
                  "harmonics (row l^2 + l + m) per volume flow of each node, real part");
     write_single(file, member("far_field/im", i), far.imag(), "the same, imaginary part");
   }
+}
+
+/// Values of all samples; none where one of them has none.
+std::vector<double> all_of(const SoundTable& table,
+                           const std::function<std::optional<double>(const SampleChecks&)>& take) {
+  std::vector<double> values;
+  for (const SoundSample& sample : table.samples)
+    if (const auto value = take(sample.checks)) values.push_back(*value);
+  return values.size() == table.samples.size() ? values : std::vector<double>();
+}
+
+void write_pressures(H5File& file, const SoundTable& table) {
+  for (size_t i = 0; i < table.samples.size(); ++i) {
+    const Eigen::MatrixXcd pressure = table.samples[i].pressure.cast<sound::Complex>();
+    write_single(file, member("surface_pressure/re", i), pressure.real(),
+                 "pressure at the nodes of the acoustic skin per reduced velocity, real part",
+                 "Pa s/m");
+    write_single(file, member("surface_pressure/im", i), pressure.imag(),
+                 "the same, imaginary part", "Pa s/m");
+  }
+  const auto put = [&](const char* name, const char* unit, const char* meaning, const auto& take) {
+    if (const std::vector<double> values = all_of(table, take); !values.empty())
+      put_sound(file, std::string("checks/") + name, values, unit, meaning);
+  };
+  put("condition", "1", "of the solved matrix, by frequency",
+      [](const SampleChecks& c) { return std::optional(c.condition); });
+  put("far_field_error_db", "dB", "as in the certificate, by frequency",
+      [](const SampleChecks& c) { return std::optional(c.far_field_error); });
+  put("monopole_error_db", "dB", "as in the certificate, by frequency",
+      [](const SampleChecks& c) { return c.monopole_error; });
+  put("surface_power_error_db", "dB", "as in the certificate, by frequency",
+      [](const SampleChecks& c) { return c.surface_power_error; });
 }
 
 void check_shape(const H5File& file, const std::string& name, int64_t rows, int64_t columns) {
@@ -128,6 +163,51 @@ FlowMap read_flow(const H5File& file, int64_t n_v) {
   return flow;
 }
 
+/// Pressures and checks of samples that were read; InputError where they are not all there.
+void read_pressures(const H5File& file, int64_t n_v, SoundTable& table) {
+  const std::vector<double> condition = file.read_doubles("checks/condition");
+  const std::vector<double> far_field = file.read_doubles("checks/far_field_error_db");
+  std::vector<double> monopole, surface_power;
+  if (file.has("checks/monopole_error_db")) {
+    monopole = file.read_doubles("checks/monopole_error_db");
+    surface_power = file.read_doubles("checks/surface_power_error_db");
+  }
+  const size_t n = table.samples.size();
+  if (condition.size() != n || far_field.size() != n || surface_power.size() != monopole.size() ||
+      (!monopole.empty() && monopole.size() != n))
+    throw InputError(fmt::format("{}: checks: expected {} values each", file.path().string(), n));
+  for (size_t i = 0; i < n; ++i) {
+    SoundSample& sample = table.samples[i];
+    const std::string re = member("surface_pressure/re", i), im = member("surface_pressure/im", i);
+    for (const std::string& part : {re, im}) check_shape(file, part, n_v, table.size());
+    sample.pressure.resize(n_v, table.size());
+    sample.pressure.real() = file.read_matrix(re).cast<float>();
+    sample.pressure.imag() = file.read_matrix(im).cast<float>();
+    if (!sample.pressure.allFinite())
+      throw InputError(fmt::format("{}: {}: found NaN or infinity, expected finite values",
+                                   file.path().string(), re));
+    sample.checks = {condition[i], far_field[i]};
+    if (monopole.empty()) continue;
+    sample.checks.monopole_error = monopole[i];
+    sample.checks.surface_power_error = surface_power[i];
+  }
+}
+
+/// Whether a file is of the same acoustic skin, motion and space, to the bit.
+bool is_alike(const H5File& file, const SoundTable& table, const PartSound& sound) {
+  const auto& [fluid, ground] = std::tie(table.fluid, table.ground);
+  const SoundTable& own = sound.table;
+  const bool same_ground =
+      ground.has_value() == own.ground.has_value() &&
+      (!ground || (ground->normal == own.ground->normal && ground->offset == own.ground->offset));
+  return same_ground && fluid.density == own.fluid.density &&
+         fluid.sound_speed == own.fluid.sound_speed && table.flow.face == own.flow.face &&
+         table.flow.node == own.flow.node && table.flow.weight == own.flow.weight &&
+         file.read_matrix("skin/nodes") == Eigen::MatrixXd(sound.skin.nodes) &&
+         file.read_matrix("skin/triangles") == sound.skin.triangles.cast<double>() &&
+         file.read_matrix("skin/normal_velocity") == sound.face_velocity;
+}
+
 void read_samples(const H5File& file, int size, SoundTable& table) {
   const int64_t n_v = file.shape("skin/nodes").at(0);
   table.flow = read_flow(file, n_v);
@@ -183,6 +263,7 @@ void write_sound(H5File& file, const PartSound& sound, const SoundOptions& optio
             "frequencies; R / f^2 is a polynomial through six of them");
   write_microphones(file, table);
   write_far_fields(file, table);
+  if (options.surface_pressure) write_pressures(file, table);
   for (size_t i = 0; i < grid.size(); ++i) {
     const SoundSample& sample = table.samples[i];
     put_sound(file, member("resistance", i), sample.R, "N s/m",
@@ -203,6 +284,21 @@ void write_sound(H5File& file, const PartSound& sound, const SoundOptions& optio
             "mean normal velocity of each triangle per reduced velocity, triangles x coordinates");
   file.set("skin", "area_m2", sound.skin.area);
   file.set("skin", "enclosed_volume_m3", sound.skin.volume);
+}
+
+std::vector<SoundSample> earlier_samples(const std::filesystem::path& path,
+                                         const std::string& rom_sha256, const PartSound& sound) {
+  if (!std::filesystem::is_regular_file(path)) return {};
+  try {
+    const H5File file = open_artefact(path, kSoundSchema);
+    if (!file.has("checks/condition") || file.get_string("/", "version") != version()) return {};
+    SoundTable table = read_sound(path, rom_sha256, static_cast<int>(sound.face_velocity.cols()));
+    if (!is_alike(file, table, sound)) return {};
+    read_pressures(file, sound.skin.node_count(), table);
+    return std::move(table.samples);
+  } catch (const InputError&) {
+    return {};  // it is replaced by the new one
+  }
 }
 
 SoundTable read_sound(const std::filesystem::path& path, const std::string& rom_sha256, int size) {

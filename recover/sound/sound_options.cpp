@@ -89,6 +89,9 @@ const Keys<SoundOptions>& sound_keys() {
                    {{"engine_1m", MicrophoneSet::kEngine1m}, {"iso_3744", MicrophoneSet::kIso3744}},
                    "points 1 m around the part: five beside and above it, or those of ISO 3744 on "
                    "the ground; engine_1m when no microphone is given");
+        key.flag("surface_pressure", options.surface_pressure,
+                 "the file keeps the pressures on the acoustic skin, with which it is made again "
+                 "for other microphones without boundary elements");
         key.table("air", options.air, air_keys());
         key.table("skin", options.skin, skin_keys());
         key.table("grid", options.grid, grid_keys());

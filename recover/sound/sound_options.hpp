@@ -37,6 +37,7 @@ struct SoundOptions {
   std::optional<sound::Plane> ground{};
   MicrophoneSet set = MicrophoneSet::kNone;  // none: engine_1m, or none beside a list
   std::vector<Microphone> microphones{};     // of the list, in addition to those of the set
+  bool surface_pressure = true;              // is kept, for other microphones
 
   sound::Space space() const { return {{air.density, air.sound_speed}, ground}; }
   MicrophoneSet chosen_set() const {

@@ -16,6 +16,13 @@
 
 namespace clatter::recover {
 
+/// What was measured of the boundary elements at one frequency [dB].
+struct SampleChecks {
+  double condition = 0.0, far_field_error = 0.0;
+  // Of the power of a point source: from the far field, from the pressures on the surface.
+  std::optional<double> monopole_error{}, surface_power_error{};
+};
+
 /// The sound at one frequency.
 struct SoundSample {
   double frequency_hz = 0.0;
@@ -23,6 +30,10 @@ struct SoundSample {
   Eigen::MatrixXcd H;  // n_m x r [Pa s/m for translations]
   /// G: (degree + 1)^2 x n_v [Pa s/m2], the far field in spherical harmonics (sound::FarHarmonics).
   Eigen::MatrixXcd far{};
+  /// n_v x r, at the nodes of the acoustic skin, of which H is made; as written. Only while a file
+  /// is made.
+  Eigen::MatrixXcf pressure{};
+  SampleChecks checks{};
 };
 
 /// Samples at ascending frequencies, and how to interpolate between them.

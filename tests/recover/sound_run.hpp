@@ -72,6 +72,7 @@ class SoundRun : public ::testing::Test {
     rom_ = sha256_of_file(folder_ / "rom.h5");
     H5File file = H5File::create(folder_ / "part.sound.h5");
     file.set("/", "schema", kSoundSchema);
+    file.set("/", "version", version());
     write_sound(file, sphere_sound(), sphere_options(), rom_);
     file.commit();
   }
