@@ -63,7 +63,9 @@ class Programs(stages.PipelineTest):
         self.assertEqual(before, [path.stat().st_mtime_ns for path in again.values()])
 
     def test_a_scene_of_a_sweep_that_is_refused_is_named(self):
-        with self.assertRaisesRegex(clatter.Refused, r"step_sweep/1.run.toml:\d+: time.emd_s: unknown key"):
+        with self.assertRaisesRegex(clatter.Refused, r"step_sweep/1e9.run.toml:\d+: time.output_step_us: found 1e\+09"):
+            pipeline.sweep("step.run.toml", {"time.output_step_us": "1e9"}, folder=self.folder)
+        with self.assertRaisesRegex(clatter.Refused, r"time.emd_s: unknown key emd_s, did you mean end_s\?"):
             pipeline.sweep("step.run.toml", {"time.emd_s": 1}, folder=self.folder)
         with self.assertRaisesRegex(clatter.Refused, "gone.run.toml: no such file"):
             pipeline.sweep("gone.run.toml", {"time.end_s": 1}, folder=self.folder)

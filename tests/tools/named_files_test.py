@@ -50,7 +50,7 @@ class SweepList(InAFolder):
     def test_scenes_and_field_settings_come_back_in_their_order(self):
         self.write("slap.run.toml", "x = 1\n")
         for field in ("speeds.field.toml", None):
-            sweep.write_files(pathlib.Path("slap.run.toml"), pathlib.Path("speeds"), ["v"], [("900",), ("1000",)], field)
+            sweep.write_files(pathlib.Path("slap.run.toml"), pathlib.Path("speeds"), ["engine.speed_rpm"], [("900",), ("1000",)], field)
             self.assertEqual(sweep_list.names(pathlib.Path("speeds")), ["900", "1000"])
             self.assertEqual(sweep_list.field_settings(pathlib.Path("speeds")), field)
         self.assertIsNone(sweep_list.names(pathlib.Path("elsewhere")))
