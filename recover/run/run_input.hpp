@@ -16,7 +16,7 @@ struct RunClock {
   Eigen::VectorXd time;       // n_t [s], uniform steps
   Eigen::VectorXd angle_deg;  // n_t, ascending through all cycles; empty without a crank
   double step_s = 0.0;
-  std::string angle_zero;  // what crank angle 0 is: "firing TDC"; empty without a crank
+  std::string angle_zero{};  // what crank angle 0 is: "firing TDC"; empty without a crank
 
   bool has_crank() const { return angle_deg.size() > 0; }
   /// Mean speed of the entire run [deg/s].

@@ -153,6 +153,24 @@ TEST_F(Program, AnotherReducedModelThanTheRunsIsRefused) {
   expect_refused("run.h5", "sha256");
 }
 
+TEST_F(Program, SoundAtOtherMicrophonesTakesOverWhatItHasSolved) {
+  const std::string options =
+      "[skin]\nopening = 0.05\n[grid]\nfrom_hz = 200\nto_hz = 500\ntolerance_db = 3\n";
+  const std::string taken = "frequencies of the earlier file are taken over";
+  write("part.toml", options);
+  ASSERT_EQ(recover("sound rom.h5 -c part.toml -o part.sound.h5"), 0) << output_;
+  EXPECT_EQ(output_.find(taken), std::string::npos) << output_;
+  write("part.toml", options + "[[microphone]]\nname = \"ear\"\nposition = [0, 1, 1]\n");
+  ASSERT_EQ(recover("sound rom.h5 -c part.toml -o part.sound.h5"), 0) << output_;
+  EXPECT_NE(output_.find(taken), std::string::npos) << output_;
+  EXPECT_NE(output_.find("microphone ear"), std::string::npos) << output_;
+  ASSERT_EQ(recover("sound rom.h5 -c part.toml -o fresh.sound.h5"), 0) << output_;
+  const H5File again = H5File::open(folder_ / "part.sound.h5"),
+               fresh = H5File::open(folder_ / "fresh.sound.h5");
+  for (const char* name : {"microphones/pressure_re/00000", "surface_pressure/im/00001"})
+    EXPECT_TRUE(again.read_matrix(name) == fresh.read_matrix(name)) << name;
+}
+
 TEST_F(Program, SoundOfAPartIsUsedByARun) {
   write("part.toml",
         "[skin]\nopening = 0.05\n[grid]\nfrom_hz = 200\nto_hz = 500\ntolerance_db = 3\n");
