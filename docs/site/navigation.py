@@ -12,7 +12,8 @@ KEYS = [(f"docs/keys/{name}.md", name) for name in ("mesh", "fe", "modes", "rom"
 NAVIGATION = {
     "": [("README.md", "clatter")],
     "Tutorials": [("docs/tutorial/README.md", "Tutorials"), ("docs/tutorial/1-beam.md", "1. Beam"),
-                  ("docs/tutorial/2-cad-part.md", "2. CAD part"), ("docs/tutorial/3-deck.md", "3. Deck")],
+                  ("docs/tutorial/2-cad-part.md", "2. CAD part"), ("docs/tutorial/3-deck.md", "3. Deck"),
+                  ("docs/tutorial/4-piston-slap.md", "4. Piston slap")],
     "Programs": [("mesh/README.md", "mesh"), ("mesh/deck/README.md", "mesh/deck"), ("assembly/README.md", "assembly"),
                  ("modal/README.md", "modal"), ("condense/README.md", "condense"), ("dynamics/README.md", "dynamics"),
                  ("docs/dynamics/theory.md", "dynamics: theory"), ("docs/dynamics/methods.md", "dynamics: methods"),

@@ -39,9 +39,16 @@ const std::vector<CertificateField<RunCertificate>>& RunCertificate::fields() {
 }
 
 std::vector<std::string> periodicity_lines(const CycleDifference& difference) {
+  const RunCertificate certificate{difference};
   std::vector<std::string> lines;
-  for (const auto& [name, value] : certificate_numbers(RunCertificate{difference}))
-    if (name.starts_with("periodicity_")) lines.push_back(fmt::format("{}: {:.3g}", name, value));
+  for (const auto& field : RunCertificate::fields()) {
+    if (!std::string_view(field.name).starts_with("periodicity_")) continue;
+    CertificateNumbers numbers;
+    field.visit(certificate, [&](const auto& value) { put_field(field.name, value, numbers); });
+    const std::string unit = *field.unit == '\0' ? "" : fmt::format(" {}", field.unit);
+    for (const auto& [name, value] : numbers)
+      lines.push_back(fmt::format("{}: {:.3g}{}", name, value, unit));
+  }
   return lines;
 }
 

@@ -34,7 +34,8 @@ struct RunCertificate : CycleDifference {
   bool operator==(const RunCertificate&) const = default;
 };
 
-/// Lines for the user, "periodicity_block: 0.00123"; none after one cycle.
+/// Lines for the user, "periodicity_lateral: 1.2e-06 m", "periodicity_block: 0.00123"; none after
+/// one cycle.
 std::vector<std::string> periodicity_lines(const CycleDifference& difference);
 
 }  // namespace clatter::dynamics

@@ -72,9 +72,9 @@ const Keys<TimeTable>& time_keys() {
         key.text(
             "cycle_of", time.cycle_of,
             "the [[drive]] with speed_rpm whose cycles of 720 deg a run without an engine has");
-        key.integer(
-            "cycles", time.cycles, Range::between(1.0, 1000.0),
-            "cycles, of which the last is reported: 2 without it, at most 30 with settle_to");
+        key.integer("cycles", time.cycles, Range::between(1.0, 1000.0),
+                    "cycles, of which the last is reported: 2 without it; with settle_to the most, "
+                    "30 without it");
         key.number("settle_to", time.settle, Range::between(1e-9, 1.0),
                    "further cycles, until the velocities of each body differ by no more than this "
                    "part from those of the cycle before");

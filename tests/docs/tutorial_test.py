@@ -44,6 +44,13 @@ class Deck(Page):
         self.run_page()
 
 
+class PistonSlap(Page):
+    name = "4-piston-slap.md"
+
+    def test_the_page_is_what_its_commands_do(self):
+        self.run_page()
+
+
 class Pages(unittest.TestCase):
     def test_each_page_is_in_the_index_and_is_run_by_a_registered_test(self):
         registered = re.findall(r"clatter_python_test\(tutorial_test pipeline (\w+)\)",

@@ -82,7 +82,10 @@ class Samples(Folder):
     def test_each_kind_is_its_sample_with_the_rules_of_this_installation(self):
         for kind, sample in command.SAMPLES.items():
             with self.subTest(kind=kind):
-                self.new(kind, "--kind", kind)
+                start = [line for line in self.new(kind, "--kind", kind).splitlines() if line.startswith("start with ")]
+                self.assertEqual(len(start), 1)
+                for pattern in re.findall(r"[\w.*]+\.toml", start[0]):
+                    self.assertTrue(list((self.folder / kind).glob(pattern)), pattern)
                 tracked = subprocess.run(["git", "ls-files", f"samples/{sample}"], cwd=stages.SOURCE, capture_output=True, text=True)
                 if tracked.returncode == 0:
                     self.assertEqual({path.name for path in (self.folder / kind).iterdir()},

@@ -62,6 +62,14 @@ class FieldPictures(unittest.TestCase):
         self.addCleanup(file.close)
         return file
 
+    def test_the_loudest_lines_are_in_the_band_of_the_levels(self):
+        add_sound(self.path)
+        for from_hz, end in ((20.0, "2000 Hz, lines at 600 Hz"), (700.0, "2000 Hz")):
+            with h5py.File(self.path, "r+") as file:
+                file.attrs["spectra_from_hz"] = from_hz
+            with artefact.open_artefact(self.path, "field") as field:
+                self.assertTrue(findings.loudness("slap", field)[1].endswith(end), from_hz)
+
     def test_findings_are_by_sound_power_where_the_file_has_it(self):
         with self.open() as field:
             level, sentence = findings.loudness("slap", field)

@@ -88,7 +88,8 @@ def loudness(label, field):
     at = f"analysis/{'cycle' if 'cycle' in pieces else pieces[0]}"
     power = fields.radiated(field, at)
     frequency = artefact.dataset(field, f"{at}/frequency_hz")
-    peaks = frequency[loudest_peaks(frequency, artefact.dataset(field, power.power), PEAKS)]
+    # In the band of the levels; the file has all lines.
+    peaks = frequency[loudest_peaks(frequency, artefact.dataset(field, power.power), PEAKS, field.attrs.get("spectra_from_hz", 0.0))]
     bands = artefact.dataset(field, power.bands)
     band = artefact.text(artefact.dataset(field, f"{at}/third_octave/nominal")[int(np.argmax(bands))])
     lines = f", lines at {', '.join(f'{hz:.0f}' for hz in peaks)} Hz" if len(peaks) else ""

@@ -194,5 +194,5 @@ def write_sweep(options):
             count = write_files(base, folder, *read_keys(options.keys), options.field)
     except OSError as error:
         raise CannotWrite(f"{folder}: cannot be written: {error.strerror}") from error
-    print(f"{folder}: {count} scenes, and sweep.mk with $({folder.name}_runs) and $({folder.name}_fields) for a Makefile that "
+    print(f"{folder}: {count} scene{'s' if count != 1 else ''}, and sweep.mk with $({folder.name}_runs) and $({folder.name}_fields) for a Makefile that "
           "includes it after clatter.mk")

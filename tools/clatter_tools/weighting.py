@@ -17,9 +17,9 @@ def level_dba(hz, power):
     return np.where(weighted > 0.0, 10.0 * np.log10(np.maximum(weighted, 1e-300) / 1e-12), -999.0)
 
 
-def loudest_peaks(hz, power, count):
-    """Indices of the highest peaks of an A-weighted power per line, the highest first."""
+def loudest_peaks(hz, power, count, from_hz=0.0):
+    """Indices of the highest peaks of an A-weighted power per line from a frequency on, the highest first."""
     weighted = np.asarray(power) * a_weight(np.asarray(hz, float))
     around = np.concatenate([[0.0], weighted, [0.0]])
-    peaks = np.flatnonzero((weighted > around[:-2]) & (weighted >= around[2:]))
+    peaks = np.flatnonzero((weighted > around[:-2]) & (weighted >= around[2:]) & (np.asarray(hz) >= from_hz))
     return peaks[np.argsort(-weighted[peaks], kind="stable")[:count]]

@@ -43,7 +43,7 @@ InertiaCount count_below(const SparseMatrix& K, const SparseMatrix& M, double mu
   };
   eliminate(tree, permuted(tree, shifted, scale_of(K)), kernel, nullptr, nullptr);
   if (!(count.growth <= kGrowth)) {
-    warn(fmt::format("inertia count: pivots grow by {:.1e}; MUMPS counts", count.growth));
+    say(fmt::format("inertia count: pivots grow by {:.1e}, so MUMPS counts again", count.growth));
     count = count_below_by_mumps(K, M, mu, permutation);
   }
   count.seconds = clock.seconds();

@@ -12,6 +12,9 @@ from . import part
 from ..keys.schema_line import PACKAGE, schema_line
 
 SAMPLES = {"part": "beam", "slap": "truck_diesel", "drive": "timing_drive"}
+START = {"part": "start with step.run.toml, the scene, and beam.*.toml, its part",
+         "slap": "start with slap.run.toml, the scene, and block.*.toml and piston.*.toml, its parts; most other scenes change a few keys of it",
+         "drive": "start with drive.run.toml, the scene, and block.*.toml, its part; valves.run.toml changes a few tables of it"}
 OWN = ("*.toml", "*.csv", "*.mk", "Makefile", "compare")
 # What the Makefile of truck_diesel makes of its other files.
 MADE = re.compile(r"(block_(liner|damping)|piston_(density|crown|offset)|motored_|fired_)-?\d")
@@ -43,7 +46,7 @@ def write_new(options):
         if options.part:
             lines = part.write_part(scratch, pathlib.Path(options.part), options.units)
         else:
-            lines = copy_sample(scratch, SAMPLES[options.kind])
+            lines = [*copy_sample(scratch, SAMPLES[options.kind]), START[options.kind]]
         names = sorted(path.name for path in scratch.iterdir())
     print(f"{folder}: {len(names)} files: {', '.join(names)}")
     for line in lines:
