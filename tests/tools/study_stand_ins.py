@@ -29,6 +29,8 @@ for file in $([[ $0 != *dynamics ]] || sed -nE 's/^(base|rom) = "(.*)"/\\2/p' *.
   case $file in *.h5) take < "$GIVEN/of-$(stat -Lc %i "$file")";; *) take < "$file";; esac
 done
 kind=${output%.h5}; kind=${kind##*.}
+echo "details of $output"
+[ $kind-${made[tau]} = run-0.1 ] && echo "warning: $output is expensive" >&2
 [ $kind = run ] && : ${made[both]:=0.0}
 [ $kind = run ] && [ -e $GIVEN/wait ] && { echo $$ > $GIVEN/waiting.part; mv $GIVEN/waiting.part $GIVEN/waiting; exec sleep 60; }
 [ $kind = run ] && [ -e $GIVEN/fail ] && { echo told to fail >&2; exit 2; }

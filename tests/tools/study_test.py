@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 from study_stand_ins import H, N, SMALL, STUDY, TAU, StandIns, exact, write_given
 
+from clatter_command import clatter
 from clatter.artefact import BadArtefact
 from clatter_tools.study import effect_keys, effects, effects_page, findings, markdown, place, proof, proposal, run
 
@@ -101,7 +102,7 @@ class Proposals(StandIns):
     def test_what_cannot_be_reached_is_said_with_the_nearest(self):
         self.write("study.toml", SMALL)
         line = self.command("--within", "value 0.001 %", code=3)
-        self.assertIn("no settings of this study are within 0.001 %: add finer values, or ask for less", line)
+        self.assertIn("no settings of this study are within 0.001 %: add finer values, or allow a larger error", line)
         for text in ("level 1", "value", "value -1", "value 1 m", ""):
             self.calls()
             self.assertIn(f"--within: found {text!r}, expected a quantity and an error, as \"value 2 %\" or \"value 0.5\"; known: value", self.command("--within", text, code=2))
@@ -274,6 +275,23 @@ class Refused(StandIns):
         self.write("other.toml", "n = 1")
         self.assertIn("--at: found other.toml:n, on which value does not depend, expected a key that changes it",
                       self.command("--within", "value 5 %", "--at", "other.toml:n=2", code=2))
+
+
+class Said(StandIns):
+    def test_an_artefact_is_a_line_with_its_warnings_and_a_stage_that_fails_is_shown_in_full(self):
+        self.write("study.toml", SMALL.replace("[2.0, 1.0]", "[20.0, 2.0, 1.0]"))
+        done = clatter("study", "study.toml", folder=self.folder, environment={"CLATTER_BIN": "../bin"})
+        self.assertEqual(done.returncode, 3, done.stderr)
+        lines = done.stdout.splitlines()
+        self.assertEqual(lines[1:6], [f"  {name} of base" for name in ("part.mesh.h5", "part.fe.h5", "part.rom.h5", "slap.run.h5", "slap.field.h5")])
+        self.assertIn("  slap.run.h5 of tolerance-0.1", lines)
+        self.assertNotIn("details of", done.stdout)
+        said = done.stderr.splitlines()
+        self.assertEqual(said.count("  warning: slap.run.h5 is expensive"), 2)  # tolerance 0.1, all refined
+        self.assertIn(["details of part.mesh.h5", "too coarse"], [said[k:k + 2] for k in range(len(said))])
+        self.assertNotIn("details of slap.run.h5", said)
+        logs = self.folder.glob("study/made/slap.run-*/.log")
+        self.assertEqual({log.read_text().splitlines()[-1] for log in logs} - {"warning: slap.run.h5 is expensive"}, {"details of slap.run.h5"})
 
 
 class Missing(StandIns):

@@ -33,7 +33,8 @@ finest. What each variant needs is asked from make (its database of rules); an a
 it depends on: the commands that make it, contents of the TOML files after the change, of the files that they name and of the programs, and the digests
 of the artefacts that it is made of. Equal digests: made once, for all variants and later studies, in a folder of its own,
 `study/made/<artefact>-<digest>/`, by the pipeline's own rules. `study/study.mk` has a rule for each: make -j, CLATTER_LAUNCH,
-interrupting and resuming work as with any Makefile. `study/variants/` shows each variant as a folder of links.
+interrupting and resuming work as with any Makefile. `study/variants/` shows each variant as a folder of links. A line for each artefact that has been
+made names the first variant that needs it; warnings are shown, and all that a stage that failed has said, which is otherwise in `.log` beside its artefact.
 
 **Errors.** Along a setting, the error of a value is the difference from the setting's reference: the limit of Richardson's extrapolation
 Q(h) = Q* + C h^p, with p from the three finest values, where four values agree about p, otherwise the finest value. The budget adds the

@@ -112,9 +112,10 @@ def make(path, jobs):
     base = made.add({})
     made.make(["base"], [base], jobs)
     switches = switches_of(wanted, pipeline, states_of(made, base))
-    artefacts = [made.add(one.tables) for one in switches]
+    folders = [re.sub(r"[^\w.+=-]+", "-", f"{one.to}-{one.name}") for one in switches]
+    artefacts = [made.add(one.tables, folder) for one, folder in zip(switches, folders)]
     timed = once_more(made, base, artefacts)
-    made.make(["base", "base-once-more", *(re.sub(r"[^\w.+=-]+", "-", f"{one.to}-{one.name}") for one in switches)], [base, timed, *artefacts], jobs)
+    made.make(["base", "base-once-more", *folders], [base, timed, *artefacts], jobs)
     found = Effects(wanted, made.values(base), switches)
     before = made.stages(timed)
     for one, own in zip(switches, artefacts):

@@ -118,11 +118,13 @@ def make_there(study, quantity, chosen, changes, jobs):
     """(Making, artefacts of each) of variants with changed files, as far as a quantity needs them; BadArtefact where the changes change nothing."""
     pipeline = run.pipeline_of(study.plan)
     made = run.Making(study.plan, pipeline, quantity)
-    artefacts = [made.add(variants.changed_tables(study.plan, pipeline, study.variants[BASE].values, one, changes)) for one in chosen]
+    folders = [f"{one.folder}-there" if changes else one.folder for one in chosen]
+    artefacts = [made.add(variants.changed_tables(study.plan, pipeline, study.variants[BASE].values, one, changes), folder)
+                 for one, folder in zip(chosen, folders)]
     if changes and artefacts[0] == made.add({}):
         names = ", ".join(f"{file}:{'.'.join(path)}" for (file, path), _ in changes)
         raise BadArtefact(f"--at: found {names}, on which {study.plan.quantities[quantity].name} does not depend, expected a key that changes it")
-    made.make([f"{one.folder}-there" if changes else one.folder for one in chosen], artefacts, jobs)
+    made.make(folders, artefacts, jobs)
     return made, artefacts
 
 

@@ -102,7 +102,7 @@ def answer(study, request, text, seconds, jobs, there=(), at=()):
     if best is None:
         print("\n".join(["the nearest:", *report(study, quantity, least)]))
         raise Failed(f"{study.plan.path}: no settings of this study are within {findings.error_text(study, quantity, within)}"
-                         f"{f' and {seconds:g} s' if math.isfinite(seconds) else ''}: add finer values, or ask for less")
+                         f"{f' and {seconds:g} s' if math.isfinite(seconds) else ''}: add finer values, or allow a larger error")
     print("\n".join(report(study, quantity, best)), flush=True)
     proof = prove(study, quantity, best, jobs, place)
     print(f"the run{', ' if at else ''}{', '.join(at)}: {findings.error_text(study, quantity, proof.error)}, {findings.seconds_text(proof.seconds)}"
@@ -118,7 +118,7 @@ def answer(study, request, text, seconds, jobs, there=(), at=()):
         print(f"beside the error of these settings: {findings.error_text(study, quantity, rest)} between the limit of all settings and the exact value")
     if proof.error > within:
         raise Failed(f"{study.plan.path}: found {findings.error_text(study, quantity, proof.error)}, more than the {findings.error_text(study, quantity, within)} "
-                         "asked for: ask for less, or add values to the study")
+                         "asked for: request a smaller error, or add values to the study")
 
 
 PROOFS = ["request", "scene", "proposed", "expected", "the run", "error over expected", "seconds over expected"]

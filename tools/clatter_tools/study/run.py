@@ -103,7 +103,7 @@ def make(path, jobs):
     base = variants.base_values(wanted, pipeline)
     found = variants.variants_of(wanted, base)
     made = Making(wanted, pipeline)
-    artefacts = [made.add(variants.changed_tables(wanted, pipeline, base, one)) for one in found]
+    artefacts = [made.add(variants.changed_tables(wanted, pipeline, base, one), one.folder) for one in found]
     check_settings(wanted, found, artefacts)
     made.make([one.folder for one in found], artefacts, jobs)
     return numbers(wanted, found, made, artefacts)
@@ -121,9 +121,9 @@ class Making:
         self.targets = list(dict.fromkeys(one.file for one in wanted.quantities)) if quantity is None else [wanted.quantities[quantity].file]
         self.store = store.Store(pipeline, wanted.output)
 
-    def add(self, changed):
-        """[Made] of a variant with changed TOML files, {name: tables}."""
-        files = store.VariantFiles(self.store, changed)
+    def add(self, changed, folder="base"):
+        """[Made] of a variant with changed TOML files, {name: tables}; `folder`: that of the variant, which is said when an artefact has been made."""
+        files = store.VariantFiles(self.store, changed, folder)
         return [files.artefact(target) for target in self.targets]
 
     def make(self, folders, artefacts, jobs):

@@ -27,11 +27,12 @@ all: {all}
 """
 # The inputs are links to artefacts that are complete: make need not look what they are made of. `times` is the shell's: of a stage that goes on from
 # its checkpoint the seconds before the interruption count as well. .span: when the stage began and ended; with a launcher, which gives each stage processors
-# of its own, also that.
+# of its own, also that. What the stage says is in a file beside the artefact, and shown where it fails.
 RULE = """{target}:{inputs}
 	+@cd {folder} && {{ ls *.checkpoint >/dev/null 2>&1 || rm -f .times.part .span.part; }} && trap 'times >>.times.part; exit 143' INT TERM && \\
-	date +%s.%N >>.span.part && $(MAKE) --no-print-directory -I {pipeline} {old}{name} && times >>.times.part && mv .times.part .times && \\
-	date "+%s.%N $${{CLATTER_LAUNCH:+launched}}" >>.span.part && mv .span.part .span
+	date +%s.%N >>.span.part && {{ $(MAKE) --no-print-directory -I {pipeline} {old}{name} >.log 2>&1 || {{ cat .log >&2; exit 2; }}; }} && \\
+	times >>.times.part && mv .times.part .times && date "+%s.%N $${{CLATTER_LAUNCH:+launched}}" >>.span.part && mv .span.part .span && \\
+	echo {line} && sed -n 's/^warning: /  &/p' .log >&2
 """
 BESIDE, TAKEN = "beside others", "taken over"
 OVERLAP = 0.05  # of a stage's time, during which others may run: less than its seconds vary by
@@ -39,12 +40,13 @@ OVERLAP = 0.05  # of a stage's time, during which others may run: less than its 
 
 @dataclasses.dataclass
 class Made:
-    """An artefact: its name in the pipeline, its folder's name, and all that it depends on: texts of TOML files by name, artefacts
-    by name."""
+    """An artefact: its name in the pipeline, its folder's name, all that it depends on (texts of TOML files by name, artefacts by name), and the first
+    variant that needs it."""
     name: str
     folder: str
     texts: dict
     inputs: dict
+    variant: str = dataclasses.field(default="", compare=False)
 
 
 class Store:
@@ -148,6 +150,7 @@ class Store:
         for one in self.made.values():
             inputs = "".join(f" {targets[other.folder]}" for other in one.inputs.values())
             rules.append(RULE.format(target=targets[one.folder], inputs=f" |{inputs}" if inputs else "", folder=f"made/{one.folder}", name=one.name,
+                                     line=quoted(f"  {one.name} of {one.variant}"),
                                      pipeline=quoted(self.pipeline.folder.resolve()), old="".join(f"-o {name} " for name in one.inputs)))
         return "\n".join(rules)
 
@@ -223,8 +226,8 @@ class Store:
 class VariantFiles:
     """What the artefacts of one variant depend on: `changed` TOML files ({name: tables}), everything else as in the folder."""
 
-    def __init__(self, store, changed):
-        self.store, self.pipeline, self.changed = store, store.pipeline, changed
+    def __init__(self, store, changed, variant):
+        self.store, self.pipeline, self.changed, self.variant = store, store.pipeline, changed, variant
         self.known = {}
 
     def artefact(self, name):
@@ -251,7 +254,7 @@ class VariantFiles:
         lists = [[self.pipeline.commands(name)], *([f"{key}={value}" for key, value in sorted(found.items())]
                                          for found in (given, contents, {key: made.folder for key, made in inputs.items()}))]
         digest = hashlib.sha256("".join(f"{len(part)} {part}\n" for part in [name, *(one for parts in lists for one in parts)]).encode()).hexdigest()
-        made = Made(name, f"{name.removesuffix('.h5')}-{digest[:16]}", texts, inputs)
+        made = Made(name, f"{name.removesuffix('.h5')}-{digest[:16]}", texts, inputs, self.variant)
         self.known[name] = self.store.made.setdefault(made.folder, made)
         return self.known[name]
 
