@@ -5,7 +5,8 @@
     tests/docs/tutorial.py docs/tutorial/1-beam.md            compares
     tests/docs/tutorial.py docs/tutorial/1-beam.md --write    writes what the commands print now into the page, and its pictures
 
-A page is run in a scratch folder, from top to bottom. Its blocks are
+A page is run in a scratch folder, from top to bottom; a page with <!-- continues 4-piston-slap.md before "Heading" --> in the folder
+that the other page has made before this heading. Its blocks are
 
 - a file: a line with its name as code and a colon, an empty line, the block;
 - ```console: commands after "$ ", continued after "> ", each followed by the lines that it prints on stdout. Progress and warnings
@@ -47,6 +48,7 @@ UNSTEADY = [(re.compile(r"^seconds: .*"), "seconds:"),             # how a run's
             (re.compile(ABSOLUTE), "*/")]
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?(?![\w]|\.\d)")
 BLOCK = re.compile(r"(?:^`(?P<file>[\w./-]+)`:\n\n)?^(?P<quote>(?:> )?)```(?P<kind>.*)\n(?P<body>(?:(?P=quote).*\n)*?)^(?P=quote)```$", re.M)
+CONTINUES = re.compile(r'<!-- continues (\S+) before "(.+)" -->')
 IMAGE = re.compile(r"!\[[^\]]*\]\(([^)\s]+)\)")
 
 
@@ -84,6 +86,17 @@ def steps_of(page):
     if page[end:].count("```") or not found:
         raise Differs("the page has no block, or one that does not end")
     return found
+
+
+def steps_before(path, page):
+    """Those of the page that this one continues; none where it begins in an empty folder."""
+    continued = CONTINUES.search(page)
+    if not continued:
+        return []
+    other, heading, _ = (path.parent / continued[1]).read_text().partition(f"\n## {continued[2]}\n")
+    if not heading:
+        raise Differs(f"{continued[1]}: found no heading {continued[2]}, which this page names")
+    return steps_of(other)
 
 
 def commands_of(body, quote, line, offset, tolerance, code):
@@ -210,8 +223,13 @@ class Shell:
         return done.returncode, done.stdout, done.stderr
 
 
-def run_step(shell, step):
-    """The lines that a command printed; Differs where its exit code is another one."""
+def carry_out(shell, step):
+    """The lines that a command printed, none of a file; Differs where its exit code is another one."""
+    if step.file:
+        file = shell.folder / step.file
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(step.text)
+        return []
     code, printed, messages = shell.run(step.text)
     if code != step.code:
         raise Differs(f"line {step.line}: $ {step.text}\n  exit code {code}, expected {step.code}\n  "
@@ -250,13 +268,12 @@ def run_page(path, write=False, keep=None):
     with tempfile.TemporaryDirectory(prefix="clatter-tutorial-") as scratch:
         root = pathlib.Path(scratch)
         shell = Shell(root)
+        for step in steps_before(path, page):
+            carry_out(shell, step)
         for step in steps:
+            printed = carry_out(shell, step)
             if step.file:
-                file = shell.folder / step.file
-                file.parent.mkdir(parents=True, exist_ok=True)
-                file.write_text(step.text)
                 continue
-            printed = run_step(shell, step)
             if write:
                 pieces += [page[end:step.span[0]], "".join(f"{step.quote}{line}\n" for line in renewed(step, printed))]
                 end = step.span[1]

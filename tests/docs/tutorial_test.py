@@ -51,6 +51,13 @@ class PistonSlap(Page):
         self.run_page()
 
 
+class Accuracy(Page):
+    name = "7-accuracy.md"
+
+    def test_the_page_is_what_its_commands_do(self):
+        self.run_page()
+
+
 class Pages(unittest.TestCase):
     def test_each_page_is_in_the_index_and_is_run_by_a_registered_test(self):
         registered = re.findall(r"clatter_python_test\(tutorial_test pipeline (\w+)\)",
@@ -121,6 +128,12 @@ class Runner(unittest.TestCase):
         self.assert_differs("Words.\n", "no block")
         self.assert_differs("```console\n$ true\n", "does not end")
         self.assert_differs("```console\ntrue\n```\n", "expected a command")
+
+    def test_a_page_continues_in_the_folder_of_another_one(self):
+        (self.page.parent / "first.md").write_text("`a.txt`:\n\n```\none\n```\n\n" + console("$ cp a.txt b.txt", "what it prints is not compared") +
+                                                   "\n## Later\n\n" + console("$ rm b.txt"))
+        self.run_text('<!-- continues first.md before "Later" -->\n' + console("$ cat b.txt", "one"))
+        self.assert_differs('<!-- continues first.md before "Never" -->\n' + console("$ true"), "first.md: found no heading Never")
 
     def test_a_picture_that_no_command_makes_fails(self):
         (self.page.parent / "a.png").write_bytes(b"\x89PNG")
