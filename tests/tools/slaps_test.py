@@ -47,7 +47,7 @@ class Study(unittest.TestCase):
     def sweep(self):
         return self.run_command("sweep", "slap.run.toml", "time.cycles=2", "--parameters", "parameters.toml", "-o", "all", "--field", "f.toml")
 
-    def write_runs(self):
+    def write_runs(self, with_sound=True):
         for name, (dba, amplitude) in RUNS.items():
             synthetic.write_run(self.folder / f"all/{name}.run.h5")
             path = self.folder / f"all/{name}.field.h5"
@@ -55,8 +55,10 @@ class Study(unittest.TestCase):
             with h5py.File(path, "a") as field:
                 at = field["analysis/cycle"]
                 at.attrs["speed_rpm"] = 2000.0
-                at["sound/power"] = at["panels/exposed/erp"][()]
-                at["sound"].attrs["power_db"], at["sound"].attrs["power_dba"] = dba + 1.0, dba
+                if with_sound:
+                    at["sound/power"] = at["panels/exposed/erp"][()]
+                of = at["sound"].attrs if with_sound else at["panels/exposed"].attrs
+                of["power_db" if with_sound else "erp_db"], of["power_dba" if with_sound else "erp_dba"] = dba + 1.0, dba
                 count = len(at["panels/exposed/erp"])
                 at["order"] = [0.5 * k for k in range(1, count + 1)]
                 for sensor in at["sensors"].values():
@@ -102,6 +104,19 @@ class Study(unittest.TestCase):
         rows = {row.name: row for row in slaps.rows_of(self.folder / "all/sweep.h5")}
         loud, base = (rows[name].bands["liner"] for name in ("pin-offset_0.5", "base"))
         self.assertAlmostEqual((loud - base).mean(), 3.52, delta=0.02)
+
+    def test_without_a_sound_file_runs_are_ranked_by_their_erp(self):
+        self.sweep()
+        self.write_runs(with_sound=False)
+        self.run_command("collect", "all", "-o", "erp.h5")
+        lines = self.run_command("slaps", "erp.h5").stdout.splitlines()
+        self.assertEqual([line.split("  ")[0] for line in lines[2:6]], ["pin offset -0.5 mm", "base", "lubrication none", "pin offset 0.5 mm"])
+        self.assertIn("runs by ERP, the quietest first", lines[0])
+        self.assertIn("ERP [dB(A) re 1 pW]", lines[1])
+        self.assertEqual(lines[3].split()[1], "80.0")
+        self.write_runs()
+        self.run_command("collect", "all")
+        self.assertIn("found some with sound power and some with ERP alone", self.run_command("slaps", "erp.h5", "all/sweep.h5", code=2).stderr)
 
     def test_wrong_parameters_are_refused(self):
         def refused(text, said):

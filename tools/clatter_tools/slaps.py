@@ -10,15 +10,18 @@ from clatter.artefact import BadArtefact, dataset, open_artefact, text
 from . import parameters
 from .whole_file import whole_file
 
-HEAD = ("sound power [dB(A) re 1 pW]", "slap after FTDC [ms]", "rings until [ms]", "liner peak [m/s²]", "block peak [m/s²]", "liner rms above 2 kHz [m/s²]")
+HEAD = ("slap after FTDC [ms]", "rings until [ms]", "liner peak [m/s²]", "block peak [m/s²]", "liner rms above 2 kHz [m/s²]")
 BANDS_FROM_HZ, BANDS_TO_HZ = 280.0, 5700.0
+# The level by which runs are ranked: (name, dataset of its sweep), the first that the sweep has.
+LEVELS = (("sound power", "sound/power/level_dba"), ("ERP", "panels/exposed/level_dba"))
 
 
 @dataclasses.dataclass
 class Row:
-    """A run: level [dB(A)], figures of the slap in SI, third octaves by sensor [dB], seconds of run and field."""
+    """A run: its level [dB(A)] and what that is, figures of the slap in SI, third octaves by sensor [dB], seconds of run and field."""
     name: str
     title: str
+    level: str
     dba: float
     slap: dict
     bands: dict
@@ -32,23 +35,24 @@ class Row:
 
 def add_arguments(command):
     """Declares the arguments of `clatter slaps`."""
-    command.add_argument("files", nargs="+", metavar="sweep.h5", help="of `clatter collect`, with sensors of liner and block and the sound power")
+    command.add_argument("files", nargs="+", metavar="sweep.h5", help="of `clatter collect`, with sensors of liner and block; without sound power by the ERP")
     command.add_argument("--parameters", metavar="file.toml", help="that of `clatter sweep --parameters`: levels by parameter instead of a ranking")
     command.add_argument("--csv", metavar="file.csv", help="all numbers, third octaves as well")
-    command.add_argument("--picture", metavar="file", help="with --parameters: sound power and liner peak over each of them, SVG or PNG")
+    command.add_argument("--picture", metavar="file", help="with --parameters: level and liner peak over each of them, SVG or PNG")
 
 
 def rows_of(path):
     """[Row] of the complete runs of a sweep file."""
     with open_artefact(path, "sweep") as sweep:
-        if "slap/peak" not in sweep or "sound/power/level_dba" not in sweep:
-            raise BadArtefact(f"{path}: found no {'slap' if 'slap/peak' not in sweep else 'sound power'}, expected fields with sensors of liner and block "
-                              "and a sound file")
+        level, at = next(((name, at) for name, at in LEVELS if at in sweep), ("", ""))
+        if "slap/peak" not in sweep or not at:
+            raise BadArtefact(f"{path}: found no {'level' if 'slap/peak' in sweep else 'slap'}, expected fields with sensors of liner and block, "
+                              "and sound power or the panel exposed")
         numbers = {name: dataset(sweep, f"slap/{name}") for name in ("time", "rings_until", "peak", "block_peak", "high_rms")}
         bands = {part: dataset(sweep, f"slap/{part}_db") for part in ("liner", "block")}
-        dba, cost = dataset(sweep, "sound/power/level_dba"), dataset(sweep, "cost")
+        dba, cost = dataset(sweep, at), dataset(sweep, "cost")
         names, titles = dataset(sweep, "name"), dataset(sweep, "title")
-        return [Row(text(names[k]), text(titles[k]), float(dba[k]), {name: float(values[k]) for name, values in numbers.items()},
+        return [Row(text(names[k]), text(titles[k]), level, float(dba[k]), {name: float(values[k]) for name, values in numbers.items()},
                     {part: levels[k] for part, levels in bands.items()}, dataset(sweep, "slap/mid_hz"), float(cost[k, 0] + cost[k, 2]))
                 for k in range(len(names)) if np.isfinite(dba[k]) and np.isfinite(numbers["peak"][k])]
 
@@ -60,11 +64,16 @@ def table(head, rows):
             for row in [head, *rows]]
 
 
+def head(rows):
+    """Of the columns of Row.cells()."""
+    return [f"{rows[0].level} [dB(A) re 1 pW]", *HEAD]
+
+
 def ranking(rows):
-    """Lines: the runs by their sound power, the quietest first, and their third octaves."""
+    """Lines: the runs by their level, the quietest first, and their third octaves."""
     ranked = sorted(rows, key=lambda row: row.dba)
-    lines = ["runs by sound power, the quietest first; accelerations above 300 Hz around firing TDC"]
-    lines += table(["run", *HEAD], [[row.title, *row.cells()] for row in ranked])
+    lines = [f"runs by {rows[0].level}, the quietest first; accelerations above 300 Hz around firing TDC"]
+    lines += table(["run", *head(rows)], [[row.title, *row.cells()] for row in ranked])
     for part in ("liner", "block"):
         shown = (ranked[0].mid_hz > BANDS_FROM_HZ) & (ranked[0].mid_hz < BANDS_TO_HZ)
         lines += ["", f"third octaves of the acceleration of the {part} over the cycle [dB re 1e-6 m/s²], by mid frequency [Hz]"]
@@ -85,7 +94,7 @@ class Influence:
 
 
 def influences(rows, found):
-    """[Influence], the largest change of sound power first; `found`: the parameters."""
+    """[Influence], the largest change of the level first; `found`: the parameters."""
     by_name = {row.name: row for row in rows}
     result = []
     for one in found:
@@ -103,25 +112,26 @@ def influences(rows, found):
 
 
 def by_parameter(found):
-    """Lines: the parameters by the change of sound power that they make; `found`: influences()."""
-    lines = ["one parameter at a time, by the change of sound power; accelerations above 300 Hz around firing TDC"]
+    """Lines: the parameters by the change of the level that they make; `found`: influences()."""
+    level = found[0].rows[0].level
+    lines = [f"one parameter at a time, by the change of {level}; accelerations above 300 Hz around firing TDC"]
     cells = []
     for one in found:
         for value, row in zip(one.values, one.rows):
             cells.append([f"{one.parameter.label()} {value}{' (base)' * (row.name == parameters.BASE)}", *row.cells()])
-    lines += table(["parameter", *HEAD], cells)
-    lines += ["", "range of sound power [dB]"]
+    lines += table(["parameter", *head(found[0].rows)], cells)
+    lines += ["", f"range of {level} [dB]"]
     return lines + table(["parameter", "range"], [[one.parameter.label(), f"{one.range_db():.1f}"] for one in found])
 
 
 def write_csv(path, rows):
     """All numbers of the rows, complete or not at all."""
     mid = rows[0].mid_hz
-    head = ["name", "title", "sound power [dB(A) re 1 pW]", "slap [s]", "rings until [s]", "liner peak [m/s2]", "block peak [m/s2]",
+    columns = ["name", "title", head(rows)[0], "slap [s]", "rings until [s]", "liner peak [m/s2]", "block peak [m/s2]",
             "liner rms above 2 kHz [m/s2]", "seconds"] + [f"{part} {hz:.4g} Hz [dB re 1e-6 m/s2]" for part in ("liner", "block") for hz in mid]
     with whole_file(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream)
-        writer.writerow(head)
+        writer.writerow(columns)
         for row in rows:
             numbers = [row.dba, *(row.slap[name] for name in ("time", "rings_until", "peak", "block_peak", "high_rms")), row.seconds]
             levels = [level for part in ("liner", "block") for level in row.bands[part][:len(mid)]]
@@ -132,7 +142,9 @@ def write_slaps(options):
     """`clatter slaps`: prints the table; writes CSV and picture."""
     rows = [row for path in options.files for row in rows_of(path)]
     if not rows:
-        raise BadArtefact(f"{', '.join(options.files)}: found no complete run with a sound power, expected at least one")
+        raise BadArtefact(f"{', '.join(options.files)}: found no complete run with a level, expected at least one")
+    if len({row.level for row in rows}) > 1:
+        raise BadArtefact(f"{', '.join(options.files)}: found some with sound power and some with ERP alone, expected the same of all")
     if options.picture and not options.parameters:
         raise BadArtefact(f"--picture: found {options.picture}, expected it with --parameters only")
     if options.parameters:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sound power and liner peak over each parameter of a sweep."""
+"""Level and liner peak over each parameter of a sweep."""
 from .. import parameters
 from . import style
 
@@ -12,6 +12,7 @@ def picture(found):
     figure, axes = style.figure(2 * lines, COLUMNS, height=1.7)
     for axis in axes.flat:
         axis.set_visible(False)
+    level = found[0].rows[0].level
     levels = [row.dba for one in found for row in one.rows]
     peaks = [row.slap["peak"] for one in found for row in one.rows]
     for k, one in enumerate(found):
@@ -29,12 +30,12 @@ def picture(found):
         for axis in (above, below):
             axis.tick_params(labelsize=8)
         if k % COLUMNS == 0:
-            above.set_ylabel("sound power\n[dB(A) re 1 pW]", fontsize=8)
+            above.set_ylabel(f"{level}\n[dB(A) re 1 pW]", fontsize=8)
             below.set_ylabel("liner peak\n[m/s²]", fontsize=8)
         else:
             above.tick_params(labelleft=False)
             below.tick_params(labelleft=False, which="both")
-    style.headline(figure, "One parameter at a time, by the change of sound power; ring: the base")
+    style.headline(figure, f"One parameter at a time, by the change of {level}; ring: the base")
     return figure
 
 
