@@ -50,10 +50,10 @@ class MovingRow {
 struct FieldPlan {
   std::string group;   // empty: it records none
   double every = 0.0;  // between instants [s]
-  int instants = 0;    // if `every` is 0: so many of a span, equally spaced
+  int instants = 0;    // if `every` is 0: so many of a cycle or run, equally spaced
 
-  /// Between instants of a span, both in [s].
-  double interval(double span) const { return every > 0.0 ? every : span / instants; }
+  /// Between instants of a cycle, or of a run without cycles, both in [s].
+  double interval(double cycle) const { return every > 0.0 ? every : cycle / instants; }
 };
 
 /// Fields at intervals, for pictures.

@@ -67,6 +67,7 @@ std::filesystem::path checkpoint_path(const std::filesystem::path& output) {
 }
 
 void CheckpointFile::add(const SampleBlock& block) {
+  if (block.count == 0) return;
   file_.append(kCycleEta, block.eta.topRows(block.count));
   file_.append(kCycleVelocity, block.v.topRows(block.count));
 }

@@ -15,8 +15,8 @@
 
 namespace clatter::dynamics {
 
-/// Every cycle starts from a checkpoint with newly built elements, whether the run was interrupted
-/// or not: so both give identical results.
+/// Every cycle before the recorded ones, and the first of these, starts from a checkpoint with
+/// newly built elements, whether the run was interrupted or not: so both give identical results.
 struct Checkpoint {
   int cycle = 0;  // completed cycles
   StageState state;
@@ -43,6 +43,8 @@ class CheckpointFile {
   explicit CheckpointFile(const std::filesystem::path& path) : file_(H5File::create(path)) {}
   /// The next block of samples.
   void add(const SampleBlock& block);
+  /// The samples of a cycle after which there is no checkpoint; the file gets no name.
+  H5File take_samples() { return std::move(file_); }
   /// Adds the state at the end of the cycle and gives the file its name.
   void commit(const Checkpoint& point, const std::string& fingerprint);
 

@@ -6,12 +6,12 @@
 namespace clatter::dynamics {
 
 ComponentFields::ComponentFields(const Model& model, const FieldSource& source, H5File& file,
-                                 double begin, double end)
+                                 double begin, double cycle)
     : model_(&model),
       source_(&source),
       clock_(file, source.field_plan().group),
       fields_(file),
-      every_(source.field_plan().interval(end - begin)),
+      every_(source.field_plan().interval(cycle)),
       next_(begin) {
   clock_.add_column(run::kTime, "s");
   if (model.clock) clock_.add_column(run::kCrankAngle, "deg");

@@ -14,10 +14,10 @@ namespace clatter::dynamics {
 /// `<group>/crank_angle_deg`.
 class ComponentFields {
  public:
-  /// Of a component of `model` whose plan has a group; model and file outlive this. @param begin,
-  /// end span of the run [s].
+  /// Of a component of `model` whose plan has a group; model and file outlive this. @param begin
+  /// of the recorded span, @param cycle length of a cycle, or of the span without one [s].
   ComponentFields(const Model& model, const FieldSource& source, H5File& file, double begin,
-                  double end);
+                  double cycle);
   /// After each accepted step.
   void record(const StageState& now);
   /// Writes what is left.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
@@ -16,11 +17,13 @@
 namespace clatter::dynamics {
 namespace {
 
-Span cycle_span(const Scene& scene, int cycle) {
-  if (!scene.clock || scene.time.settle > 0.0) return {scene.time.begin, scene.time.end};
+Span span_after(const Scene& scene, int cycle) {
+  const TimeSpec& time = scene.time;
+  if (!scene.clock || time.settle > 0.0) return {time.begin, time.end};
   const double length = scene.clock->cycle();
-  const double begin = scene.time.end - length * (scene.time.cycles - cycle);
-  return {begin, cycle + 1 == scene.time.cycles ? scene.time.end : begin + length};
+  const double begin = time.end - length * (time.cycles - cycle);
+  if (cycle + time.recorded >= time.cycles) return {begin, time.end, time.cycles - cycle, length};
+  return {begin, begin + length};
 }
 
 /// Cycles that all have the same times begin with the ramp of the first one only.
@@ -39,18 +42,19 @@ CycleRun::CycleRun(const Scene& scene, const LoadedBodies& bodies, const Checkpo
                    const std::filesystem::path& output)
     : scene_(scene),
       bodies_(bodies),
-      cycle_(from.cycle),
-      span_(cycle_span(scene, from.cycle)),
+      completed_(from.cycle),
+      span_(span_after(scene, from.cycle)),
+      output_step_(fitted_step(span_.cycle, scene.time.output_step)),
       model_(model_of(scene, bodies, from.cycle)),
       file_(std::make_unique<H5File>(H5File::create(output))),
       energy_(model_->system, *scene.steps.method),
       forces_(energy_),
       method_(make_integrator(model_->system, scene.steps)),
-      recorder_(*model_, {span_.begin, span_.end, scene.time.output_step, scene.film_every}, *file_,
-                [this](const SampleBlock& block) { pass_on(block); }) {
+      recorder_(*model_, {span_.begin, span_.end, span_.cycle, output_step_, scene.film_every},
+                *file_, [this](const SampleBlock& block) { pass_on(block); }) {
   for (const ForceRecordSpec& spec : scene.forces)
     forces_.add(std::make_unique<ForceRecord>(*model_, bodies, spec, *scene.steps.method, *file_,
-                                              span_.begin, span_.end, scene.time.output_step));
+                                              span_.begin, span_.end, output_step_));
   method_->set_observer(&forces_);
   const std::filesystem::path point = checkpoint_path(output);
   if (from.cycle == 0) {
@@ -58,12 +62,10 @@ CycleRun::CycleRun(const Scene& scene, const LoadedBodies& bodies, const Checkpo
   } else {
     from_checkpoint(point, [&] {
       restore(from);
-      before_.emplace(*model_, H5File::open(point),
-                      sample_count(span_.end - span_.begin, scene.time.output_step),
-                      span_.end - span_.begin);
+      if (span_.cycles == 1) compare_with(H5File::open(point));
     });
   }
-  if (from.cycle + 1 < most_cycles(scene)) next_.emplace(point);
+  if (span_.cycles > 1 || from.cycle + 1 < most_cycles(scene)) next_.emplace(point);
   begin_ = method_->state();
 }
 
@@ -93,6 +95,19 @@ void CycleRun::restore(const Checkpoint& from) {
   method_->resume(from.state, from.rung);
 }
 
+void CycleRun::compare_with(H5File before) {
+  before_.emplace(*model_, std::move(before), sample_count(span_.cycle, output_step_), span_.cycle);
+}
+
+/// What elements and integrator keep besides their states is forgotten, as after a checkpoint.
+void CycleRun::start_next_cycle() {
+  for (int e = 0; e < model_->system.elements(); ++e) {
+    ForceElement& element = model_->system.element(e);
+    element.restore(element.save());
+  }
+  method_->resume(method_->state(), method_->rung());
+}
+
 void CycleRun::finish() {
   recorder_.finish();
   forces_.finish();
@@ -101,26 +116,40 @@ void CycleRun::finish() {
 bool CycleRun::run(const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
   recorder_.start(method_->state());
   forces_.start(span_.begin);
-  while (method_->state().time < span_.end) {
-    if (stop != nullptr && stop->load()) return false;
-    method_->step(span_.end);
-    recorder_.record(*method_, energy_);
-    pressure_.look(*model_, recorder_.last(), method_->state().time);
-    most_held_ = std::max(most_held_, recorder_.held() + forces_.held());
-    progress(method_->state().time);
+  for (int left = span_.cycles; left > 0; --left) {
+    const double end = span_.end_of_cycle(left);
+    while (method_->state().time < end) {
+      if (stop != nullptr && stop->load()) return false;
+      method_->step(end);
+      recorder_.record(*method_, energy_);
+      pressure_.look(*model_, recorder_.last(), method_->state().time);
+      most_held_ = std::max(most_held_, recorder_.held() + forces_.held());
+      progress(method_->state().time);
+    }
+    ++completed_;
+    if (left > 1) start_next_cycle();
   }
   return true;
 }
 
 void CycleRun::pass_on(const SampleBlock& block) {
   append_samples(*file_, *model_, bodies_, block);
-  if (next_) next_->add(block);
-  if (before_) before_->add(block);
+  if (span_.cycles == 1) {
+    if (next_) next_->add(block);
+    if (before_) before_->add(block);
+    return;
+  }
+  const int64_t cycle = sample_count(span_.cycle, output_step_) - 1;
+  const int64_t end = span_.cycles * cycle, last = end - cycle;
+  if (next_) next_->add(block.between(last - cycle, last));
+  if (block.first + block.count <= last) return;
+  if (!before_) compare_with(std::exchange(next_, std::nullopt)->take_samples());
+  before_->add(block.between(last, end));
 }
 
 Checkpoint CycleRun::next() const {
   Checkpoint point;
-  point.cycle = cycle_ + 1;
+  point.cycle = completed_;
   point.state = method_->state();
   point.rung = method_->rung();
   for (int e = 0; e < model_->system.elements(); ++e)

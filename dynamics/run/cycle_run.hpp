@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// One cycle of a run, from a checkpoint to the next.
+// A span of a run, from a checkpoint to the next: one cycle, or the recorded ones.
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
@@ -21,16 +21,23 @@
 
 namespace clatter::dynamics {
 
-/// Start and end of a cycle [s].
+/// Start and end of consecutive cycles [s].
 struct Span {
   double begin, end;
+  int cycles = 1;
+  double cycle = end - begin;  // the length of one [s]
+
+  /// The end of the cycle that `left` begin before the end of the span, itself included.
+  double end_of_cycle(int left) const { return left > 1 ? end - cycle * left + cycle : end; }
 };
 
-/// One cycle with a newly built model and a new run file; the whole of a scene without an engine.
+/// A cycle, or all recorded ones, with a newly built model and a new run file; the whole of a scene
+/// without an engine. A recorded cycle begins as from a checkpoint, so the motion does not depend
+/// on how many are recorded.
 class CycleRun {
  public:
   /// From the start of the scene where `from.cycle` is 0, else from that checkpoint, which is
-  /// beside `output`. All arguments outlive the cycle. InputError for a damaged checkpoint.
+  /// beside `output`. All arguments outlive this. InputError for a damaged checkpoint.
   CycleRun(const Scene& scene, const LoadedBodies& bodies, const Checkpoint& from,
            const std::filesystem::path& output);
   CycleRun(const CycleRun&) = delete;
@@ -38,23 +45,25 @@ class CycleRun {
 
   /// False when it was stopped before the end.
   bool run(const std::function<void(double)>& progress, const std::atomic<bool>* stop);
-  /// Writes what is left, at the end of the cycle or earlier.
+  /// Writes what is left, at the end of the span or earlier.
   void finish();
 
-  /// The end of the cycle, from which the next one starts. A scene that settles is moved to where
+  /// The end of the span, from which the next one starts. A scene that settles is moved to where
   /// its slow motion repeats, and its clock is turned back.
   Checkpoint next() const;
-  /// Writes the checkpoint of a cycle that another one follows.
+  /// Writes the checkpoint of a span that another one follows.
   void commit(const Checkpoint& point, const std::string& mark);
   /// The end of the run goes to the run file.
   void write_end();
 
   Span span() const { return span_; }
+  /// Cycles of the run that are complete, with those before.
+  int completed() const { return completed_; }
   const StepStatistics& statistics() const { return method_->statistics(); }
   /// The largest difference of a body's velocities from those of the cycle before; infinite in the
   /// first cycle.
   double change() const;
-  /// Adds what this cycle reports, except of its end and its model.
+  /// Adds what this span reports, except of its end and its model.
   void report(RunResult& result) const;
   const Model& model() const { return *model_; }
   std::unique_ptr<Model> model_out() { return std::move(model_); }
@@ -63,13 +72,16 @@ class CycleRun {
  private:
   void start();
   void restore(const Checkpoint& from);
+  void compare_with(H5File before);
+  void start_next_cycle();
   void pass_on(const SampleBlock& block);
   void settle(Checkpoint& point) const;
 
   const Scene& scene_;
   const LoadedBodies& bodies_;
-  int cycle_;
+  int completed_;
   Span span_;
+  double output_step_;  // [s]
   std::unique_ptr<Model> model_;
   std::unique_ptr<H5File> file_;
   EnergyBalance energy_;
@@ -78,6 +90,7 @@ class CycleRun {
   StageState begin_;
   Recorder recorder_;
   std::optional<CycleComparison> before_;
+  /// Samples of the cycle that the one after this span, or the last one of it, is compared with.
   std::optional<CheckpointFile> next_;
   FilmPressureWatch pressure_;
   int64_t most_held_ = 0;

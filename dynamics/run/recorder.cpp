@@ -24,7 +24,7 @@ Recorder::Recorder(const Model& model, const RecordedSpan& span, H5File& file,
       next_film_(span.begin) {
   for (const FieldSource* source : components_of<FieldSource>(model))
     if (!source->field_plan().group.empty())
-      fields_.emplace_back(model, *source, file, span.begin, span.end);
+      fields_.emplace_back(model, *source, file, span.begin, span.cycle);
   for (const auto& [name, contact] : contacts_of(model))
     films_.emplace_back(file, *contact, name.empty() ? "film" : run::path("film", name));
   for (ColumnStream* columns : {&history_, &energy_, &film_clock_})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Results of one cycle (or of an entire run), which go to the run file block by block.
+// Results of the recorded cycles (or of an entire run), which go to the run file block by block.
 #include <vector>
 
 #include "dynamics/law/history.hpp"
@@ -16,6 +16,7 @@ namespace clatter::dynamics {
 /// What is recorded of a span.
 struct RecordedSpan {
   double begin = 0.0, end = 0.0;  // [s]
+  double cycle = 0.0;             // its length, or that of the entire span [s]
   double output_step = 0.0;       // between samples, as requested [s]
   double film_every = 0.0;        // between film fields [s], 0: none
 };

@@ -79,6 +79,7 @@ class Probe {
   Probe(const Scene& scene, const LoadedBodies& bodies, const ProbeLimits& limits)
       : limits_(limits),
         cycles_(most_cycles(scene)),
+        models_(cycles_ - scene.time.recorded + 1),
         span_(scene.clock ? scene.clock->cycle() : scene.time.end - scene.time.begin),
         begin_(scene.time.begin),
         model_(build_model(scene, bodies)),
@@ -127,8 +128,8 @@ class Probe {
     s.factorizations = std::llround(all.factorizations);
     s.element_seconds = all.elements;
     s.factor_seconds = all.factors;
-    s.operators = cycles_ * fine_->statistics().operators;
-    s.operator_seconds = cycles_ * fine_->statistics().operator_seconds;
+    s.operators = models_ * fine_->statistics().operators;
+    s.operator_seconds = models_ * fine_->statistics().operator_seconds;
     s.total_seconds = all.total + s.operator_seconds;
     made.processor_seconds = all.processor;
     made.source = text(scene);
@@ -183,7 +184,7 @@ class Probe {
   }
 
   ProbeLimits limits_;
-  int cycles_;
+  int cycles_, models_;  // the recorded cycles share a model
   double span_, begin_;
   std::unique_ptr<Model> model_;
   std::unique_ptr<Integrator> fine_, coarse_;

@@ -22,9 +22,11 @@ constexpr double kBytesOfFilmCell = 4.0 * 4.0;
 }  // namespace
 
 RunSize predict_size(const Scene& scene, const LoadedBodies& bodies) {
-  const double span = scene.clock ? scene.clock->cycle() : scene.time.end - scene.time.begin;
+  const double cycle = scene.clock ? scene.clock->cycle() : scene.time.end - scene.time.begin;
+  const double span = scene.time.recorded * cycle;
   RunSize size;
-  size.samples = sample_count(span, scene.time.output_step);
+  const int64_t of_cycle = sample_count(cycle, scene.time.output_step);
+  size.samples = scene.time.recorded * (of_cycle - 1) + 1;
   int64_t modes = 0, film_cells = 0;
   for (const auto& component : scene.components) {
     modes += component->traits().modes;
@@ -37,10 +39,11 @@ RunSize predict_size(const Scene& scene, const LoadedBodies& bodies) {
   // q, v and a of each coordinate, time and angle; eta and v of the cycle before and, while another
   // one follows, of this cycle.
   const int64_t checkpoints = scene.clock ? std::min(scene.time.cycles - 1, 2) : 0;
-  int64_t numbers = 3 * size.coordinates + 2 + checkpoints * 2 * modes;
+  int64_t numbers = 3 * size.coordinates + 2;
   for (const ForceRecordSpec& force : scene.forces)
     if (const LoadedBody* body = find_body(bodies, force.body)) numbers += body->model.size();
-  size.sample_bytes = 8.0 * static_cast<double>(size.samples) * static_cast<double>(numbers);
+  size.sample_bytes = 8.0 * (static_cast<double>(size.samples) * static_cast<double>(numbers) +
+                             static_cast<double>(of_cycle * checkpoints * 2 * modes));
   if (film_cells > 0 && scene.film_every > 0.0) {
     size.film_fields = std::llround(std::ceil(span / scene.film_every));
     size.film_bytes =

@@ -10,10 +10,10 @@
 
 namespace clatter::dynamics {
 
-/// Space that the samples of a cycle and the film fields need. Histories come on top; their length
-/// is that of the steps, which is not known before.
+/// Space that the samples of the recorded cycles and the film fields need. Histories come on top;
+/// their length is that of the steps, which is not known before.
 struct RunSize {
-  int64_t samples = 0;        // of a cycle
+  int64_t samples = 0;        // of the recorded cycles
   int64_t coordinates = 0;    // reduced coordinates of all bodies
   double sample_bytes = 0.0;  // in the run file and, with several cycles, in checkpoints
   int64_t film_fields = 0;    // instants

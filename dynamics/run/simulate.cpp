@@ -35,18 +35,20 @@ bool is_settled(const Scene& scene, double change) {
   return scene.time.settle > 0.0 && change <= scene.time.settle;
 }
 
-/// "cycle 2 of 4: ..." of a cycle that was completed.
+/// "cycle 2 of 4: ..." of a span that was completed.
 std::string cycle_text(const Scene& scene, const RunResult& result, Span span, double change) {
   const double factor = per_second(scene);
   const bool settles = scene.time.settle > 0.0;
-  return fmt::format(
-      "cycle {} of {}{}: {:.6g} to {:.6g} {}, {} steps so far, energy residue {:.2e}{}",
-      result.cycles, settles ? "at most " : "", most_cycles(scene), span.begin * factor,
-      span.end * factor, scene.clock ? "deg" : "s", result.statistics.accepted,
-      result.energy_residue,
-      settles && result.cycles > 1
-          ? fmt::format(", velocities {:.2g} off those of the cycle before", change)
-          : "");
+  const int first = result.cycles - span.cycles + 1;
+  const std::string which = span.cycles == 1 ? fmt::format("cycle {}", first)
+                                             : fmt::format("cycles {} to {}", first, result.cycles);
+  return fmt::format("{} of {}{}: {:.6g} to {:.6g} {}, {} steps so far, energy residue {:.2e}{}",
+                     which, settles ? "at most " : "", most_cycles(scene), span.begin * factor,
+                     span.end * factor, scene.clock ? "deg" : "s", result.statistics.accepted,
+                     result.energy_residue,
+                     settles && result.cycles > 1
+                         ? fmt::format(", velocities {:.2g} off those of the cycle before", change)
+                         : "");
 }
 
 std::string unsettled_text(const Scene& scene, double change) {
@@ -86,8 +88,8 @@ RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunCont
     result.statistics += cycle.statistics();
     for (const auto& [name, value] : seconds_by_element(cycle.model())) seconds[name] += value;
     cycle.report(result);
+    result.cycles = cycle.completed();
     if (finished) {
-      result.cycles = point.cycle + 1;
       const bool settled = is_settled(scene, cycle.change());
       result.complete = settled || result.cycles == cycles;
       say(cycle_text(scene, result, span, cycle.change()));

@@ -16,11 +16,11 @@
 
 namespace clatter::dynamics {
 
-/// Result of a run: the last cycle (possibly incomplete) and statistics.
+/// Result of a run: the recorded cycles (possibly incomplete) and statistics.
 struct RunResult {
-  std::unique_ptr<Model> model;  // of the last cycle; its effects have the cost
-  /// The run file with samples, histories, energies and film of the last cycle, still without its
-  /// final name; write_run() adds the rest.
+  std::unique_ptr<Model> model;  // of the recorded cycles; its effects have the cost
+  /// The run file with samples, histories, energies and film of the recorded cycles, still without
+  /// its final name; write_run() adds the rest.
   std::unique_ptr<H5File> file;
   int64_t samples = 0;    // in the file
   int64_t most_held = 0;  // largest count of recorded numbers in memory
@@ -28,17 +28,18 @@ struct RunResult {
   int cycles = 0;                       // completed; 1 for a scene without an engine
   bool complete = false;                // false: interrupted inside a cycle
   std::string failure;                  // why the integration failed; empty: it did not
-  double energy_residue = 0.0;          // of the reported cycle
+  double energy_residue = 0.0;          // of the recorded cycles
   double energy_exchanged = 0.0;        // [J]
   double energy_imbalance = 0.0;        // [J]
   std::optional<film::OilBalance> oil;  // of the contact that misses most of it; none remembered
-  CycleDifference periodicity;          // of the reported cycle
-  std::vector<std::string> warnings;  // of the reported cycle: accuracy, film pressure, components
+  CycleDifference periodicity;          // of the last two cycles
+  std::vector<std::string> warnings;  // of the recorded cycles: accuracy, film pressure, components
 };
 
 struct RunControl {
-  /// The run file, written as `output.part`; each cycle replaces that of the cycle before. After
-  /// each cycle but the last there is a checkpoint beside it, checkpoint_path(output).
+  /// The run file, written as `output.part`; each cycle replaces that of the cycle before, up
+  /// to the recorded ones. After each cycle before them there is a checkpoint beside it,
+  /// checkpoint_path(output).
   std::filesystem::path output;
   std::optional<Checkpoint> resume_from;    // read from that checkpoint
   const std::atomic<bool>* stop = nullptr;  // set by the caller: stop after a step

@@ -5,8 +5,24 @@
 #include <cmath>
 
 namespace clatter::dynamics {
+
+SampleBlock SampleBlock::between(int64_t from, int64_t to) const {
+  const int64_t low = std::max(first, from), high = std::min(first + count - 1, to);
+  SampleBlock part{begin + step * static_cast<double>(from), step, low - from, 0, {}, {}, {}};
+  if (high < low) return part;
+  part.count = high - low + 1;
+  part.eta = eta.middleRows(low - first, part.count);
+  part.v = v.middleRows(low - first, part.count);
+  part.a = a.middleRows(low - first, part.count);
+  return part;
+}
+
 int64_t sample_count(double length, double step) {
   return std::max<int64_t>(1, std::llround(length / step)) + 1;
+}
+
+double fitted_step(double length, double step) {
+  return length / static_cast<double>(sample_count(length, step) - 1);
 }
 
 Eigen::Index UniformSamples::block_rows(Eigen::Index modes) {

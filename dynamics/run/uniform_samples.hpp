@@ -19,10 +19,15 @@ struct SampleBlock {
   RowMatrix eta, v, a;  // rows x modes
 
   double time(Eigen::Index row) const { return begin + step * static_cast<double>(first + row); }
+  /// Those of samples `from` to `to`, the last one included, `from` being the first of all.
+  SampleBlock between(int64_t from, int64_t to) const;
 };
 
 /// Number of samples of a span, both ends included: its length over `step`, rounded, plus 1.
 int64_t sample_count(double length, double step);
+
+/// The step nearest to `step` of which `length` is an integer number [s].
+double fitted_step(double length, double step);
 
 /// Modal motion at uniform times begin + i (end - begin) / n, i = 0..n.
 ///

@@ -26,15 +26,16 @@ double within(const Config& table, const char* key, const std::optional<double>&
   return given.value_or(fallback * kMicro);
 }
 
-/// The span that is recorded: a cycle, or the entire run.
-double recorded_span(const Scene& scene) {
+/// A cycle, or the entire run.
+double cycle_or_run(const Scene& scene) {
   return scene.clock ? scene.clock->cycle() : scene.time.end - scene.time.begin;
 }
 
 void read_output(const Config& time, TimeTable& table, Scene& scene) {
-  const double span_us = recorded_span(scene) / kMicro;
-  scene.time.output_step = within(time, "output_step_us", table.output_step,
-                                  std::min(20.0, span_us), span_us / kMostSamples, span_us);
+  const double span_us = cycle_or_run(scene) / kMicro;
+  const double least_us = scene.time.recorded * span_us / kMostSamples;
+  scene.time.output_step =
+      within(time, "output_step_us", table.output_step, std::min(20.0, span_us), least_us, span_us);
   table.output_step = scene.time.output_step;
   if (scene.clock) scene.film_every = table.film_every / scene.clock->speed;
   scene.time.output_step_where = time.where("output_step_us");
@@ -52,6 +53,10 @@ void read_cycles(const Config& root, const Config& time, TimeTable& table, Scene
   table.ramp = table.ramp.value_or(rest);
   scene.time.settle = table.settle;
   scene.time.cycles = *table.cycles;
+  scene.time.recorded = table.recorded;
+  if (table.recorded > *table.cycles)
+    time.fail("record_cycles",
+              fmt::format("found {}, expected at most cycles, {}", table.recorded, *table.cycles));
   scene.time.start = table.start;
   const double omega = scene.clock->speed;
   // While it settles each cycle has the same times; what repeats each cycle allows that.
@@ -73,8 +78,12 @@ const Keys<TimeTable>& time_keys() {
             "cycle_of", time.cycle_of,
             "the [[drive]] with speed_rpm whose cycles of 720 deg a run without an engine has");
         key.integer("cycles", time.cycles, Range::between(1.0, 1000.0),
-                    "cycles, of which the last is reported: 2 without it; with settle_to the most, "
-                    "30 without it");
+                    "cycles, of which the last record_cycles are reported: 2 without it; with "
+                    "settle_to the most, 30 without it");
+        key.integer("record_cycles", time.recorded, Range::between(1.0, 1000.0),
+                    "so many of the last cycles are recorded, as one span; checkpoints are written "
+                    "before it only")
+            .excludes("settle_to", "a run that settles ends with the first cycle that repeats");
         key.number("settle_to", time.settle, Range::between(1e-9, 1.0),
                    "further cycles, until the velocities of each body differ by no more than this "
                    "part from those of the cycle before");
@@ -142,7 +151,8 @@ TimeTable read_time(const Config& root, Scene& scene) {
       time.fail("end_s", "end_s and [engine] exclude each other: a run with an engine has cycles");
     read_cycles(root, time, table, scene);
   } else {
-    for (const char* key : {"cycles", "settle_to", "start_from", "ramp_deg", "film_every_deg"})
+    for (const char* key :
+         {"cycles", "record_cycles", "settle_to", "start_from", "ramp_deg", "film_every_deg"})
       if (time.has(key)) time.fail(key, "needs [engine], or cycle_of: a run without has no cycles");
     if (!table.end) time.fail("end_s", "found nothing, expected a number above 0");
     scene.time.end = *table.end;
@@ -153,7 +163,7 @@ TimeTable read_time(const Config& root, Scene& scene) {
 
 void read_steps(const Config& root, TimeTable table, Scene& scene) {
   const Config time = root.table("time");
-  const double span = recorded_span(scene), whole = scene.time.end - scene.time.begin;
+  const double span = cycle_or_run(scene), whole = scene.time.end - scene.time.begin;
   const bool has_film =
       std::any_of(scene.components.begin(), scene.components.end(),
                   [](const auto& component) { return component->traits().has_film; });

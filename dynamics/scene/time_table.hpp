@@ -16,6 +16,7 @@ struct TimeTable {
   std::optional<double> end;  // [s]
   std::string cycle_of;       // a drive
   std::optional<int> cycles;
+  int recorded = 1;     // cycles
   double settle = 0.0;  // 0: exactly so many cycles
   std::filesystem::path start;
   std::optional<double> ramp;                           // [rad]

@@ -44,6 +44,7 @@ std::vector<NumberKey> engine_numbers() {
                           "rod.mass_kg",
                           "rod.inertia_kg_m2",
                           "time.cycles",
+                          "time.record_cycles",
                           "time.output_step_us",
                           "time.largest_step_us",
                           "time.smallest_step_us",
