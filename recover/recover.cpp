@@ -115,8 +115,9 @@ FieldCertificate certify(const RunBody& body, const Analysis& analysis,
                                .run_complete = body.complete() ? 1.0 : 0.0};
   if (!analysis.piece.periodic) return certificate;
   certificate.mean_square_share_above_spectra = share_above_limit(analysis);
-  const double drift = cycle_to_cycle_difference(body, analysis.piece, skin);
-  const double jump = cycle_end_jump(body, analysis.piece, skin);
+  const Piece cycle = segment_of(analysis.piece, analysis.piece.segments() - 1);
+  const double drift = cycle_to_cycle_difference(body, cycle, skin);
+  const double jump = cycle_end_jump(body, cycle, skin);
   if (drift >= 0.0) certificate.cycle_to_cycle_velocity_difference = drift;
   if (jump >= 0.0) certificate.cycle_end_velocity_jump = jump;
   return certificate;
@@ -124,10 +125,11 @@ FieldCertificate certify(const RunBody& body, const Analysis& analysis,
 
 /// The panel whose ERP stands for the sound without a table, and above it: the exposed faces, else
 /// all.
-const PanelResult& radiating_panel(const Analysis& analysis) {
-  for (const PanelResult& panel : analysis.panels)
+template <typename Panel>
+const Panel& radiating_panel(const std::vector<Panel>& panels) {
+  for (const Panel& panel : panels)
     if (panel.name == "exposed") return panel;
-  return analysis.panels.front();
+  return panels.front();
 }
 
 void require_same_air(const SoundTable& table, const Options& options) {
@@ -140,23 +142,24 @@ void require_same_air(const SoundTable& table, const Options& options) {
 }
 
 std::vector<RunSound> radiate(const RunBody& body, const rom::ReducedModel& model,
-                              const rom::SkinRows& T, const Options& options,
-                              const std::vector<Panel>& panels,
-                              const std::vector<Analysis>& analyses) {
+                              const rom::SkinRows& T, const Summary& summary,
+                              const std::vector<PanelForm>& forms) {
+  const Options& options = summary.options;
   if (options.sound.empty()) return {};
   const SoundTable table = read_sound(options.sound, body.rom_sha256(), model.size());
   require_same_air(table, options);
-  const PanelParts parts = with_context(
-      options.sound.string(), [&] { return panel_parts(table, model.skin.triangles, T, panels); });
+  const PanelParts parts = with_context(options.sound.string(), [&] {
+    return panel_parts(table, model.skin.triangles, T, summary.panels);
+  });
   std::vector<RunSound> sounds;
-  for (const Analysis& analysis : analyses) {
-    if (analysis.piece.segments() > 1) {
-      warn(fmt::format("window '{}': powers averaged over segments: without radiated sound",
-                       analysis.piece.name));
-      sounds.emplace_back();
-      continue;
-    }
-    sounds.push_back(run_sound(table, analysis, parts, radiating_panel(analysis), options));
+  for (const Analysis& analysis : summary.analyses) {
+    const auto segment = [&](int64_t k) -> SegmentLines {
+      if (analysis.piece.segments() == 1)
+        return {analysis.velocity, radiating_panel(analysis.panels).erp};
+      return segment_lines(body, segment_of(analysis.piece, k), radiating_panel(forms), options.air,
+                           summary.limit.to_hz);
+    };
+    sounds.push_back(run_sound(table, analysis, segment, parts, options));
   }
   return sounds;
 }
@@ -178,7 +181,7 @@ const Eigen::VectorXd& radiated_power(const Summary& summary, const Analysis& an
   const auto at = static_cast<size_t>(&analysis - summary.analyses.data());
   if (at < summary.sounds.size() && summary.sounds[at].power.size() > 0)
     return summary.sounds[at].power;
-  return radiating_panel(analysis).erp;
+  return radiating_panel(analysis.panels).erp;
 }
 
 /// The first analysis that has complex lines; null when all are averaged over segments.
@@ -265,7 +268,7 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
   if (pieces.size() == 1) warn_of_lost_motion(body, forms.front(), pieces.front());
   summary.certificate = certify(body, summary.analyses.front(), geometry, forms.front());
   clock.lap("spectra and radiated power");
-  summary.sounds = radiate(body, model, T, options, summary.panels, summary.analyses);
+  summary.sounds = radiate(body, model, T, summary, forms);
   if (!options.sound.empty()) clock.lap("radiated sound");
   certify_sound(summary, summary.certificate);
   const Analysis* const of_lines = analysis_with_lines(summary.analyses);
@@ -350,6 +353,26 @@ std::string energy_text(const Analysis& analysis) {
       means, level_db(duration, 1.0));
 }
 
+/// "'mean': sound power 91.9 dB(A) +- 0.3 dB re 1 pW (8 cycles)" of each mean over segments.
+std::string means_text(const Summary& summary) {
+  std::string text;
+  for (size_t i = 0; i < summary.analyses.size(); ++i) {
+    const Analysis& analysis = summary.analyses[i];
+    const Piece& piece = analysis.piece;
+    if (piece.segments() == 1) continue;
+    const auto add = [&](const std::string& what, double power, const LevelError& error) {
+      text += fmt::format("'{}': {} {:.1f} dB(A){} re 1 pW ({} {})\n", piece.name, what,
+                          level_db(power, summary.options.references.power),
+                          error.dba ? fmt::format(" +- {:.2g} dB", *error.dba) : "",
+                          piece.segments(), piece.is_mean_of_cycles() ? "cycles" : "segments");
+    };
+    const PanelResult& panel = radiating_panel(analysis.panels);
+    add("ERP of " + panel.name, panel.total_erp_a, panel.erp_error);
+    if (has_sound(summary)) add("sound power", summary.sounds[i].total_a, summary.sounds[i].error);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string summary_text(const Summary& summary) {
@@ -374,6 +397,7 @@ std::string summary_text(const Summary& summary) {
                   summary.options.air.loss_factor, summary.options.spectrum.from_hz);
   if (has_sound(summary)) text += sound_summary(summary.sounds.front(), analysis.piece, ref);
   if (analysis.piece.has_energy()) text += energy_text(analysis);
+  text += means_text(summary);
   for (const SensorResult& result : analysis.sensors)
     text += fmt::format(
         "sensor {:<17} peak acceleration {:.4g} m/s2\n", result.sensor->name,

@@ -24,6 +24,7 @@ void write_panel_result(H5File& file, const std::string& at, const PanelResult& 
   file.set(at, "erp_w", panel.total_erp);
   file.set(at, "erp_db", level_db(panel.total_erp, ref.power));
   file.set(at, "erp_dba", level_db(panel.total_erp_a, ref.power));
+  set_level_error(file, at, "erp", panel.erp_error);
   file.set(at, "share_of_skin", skin_erp > 0.0 ? panel.total_erp / skin_erp : 0.0);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/h5_file.hpp"
+#include "recover/spectrum/level_error.hpp"
 
 namespace clatter::recover {
 
@@ -41,6 +42,13 @@ void put_level(H5File& file, const std::string& name, const auto& values, double
       fmt::format("{}, dB re {:g} {}", meaning, reference, reference_unit));
   file.set(name, "reference", reference);
   file.set(name, "reference_unit", reference_unit);
+}
+
+/// Attributes `level`_standard_error_db and `level`_standard_error_dba of a mean over segments.
+inline void set_level_error(H5File& file, const std::string& at, const std::string& level,
+                            const LevelError& error) {
+  if (error.db) file.set(at, level + "_standard_error_db", *error.db);
+  if (error.dba) file.set(at, level + "_standard_error_dba", *error.dba);
 }
 
 }  // namespace clatter::recover

@@ -83,9 +83,10 @@ const Keys<WindowRule>& window_keys() {
       [](auto& key, WindowRule& window) {
         key.name("name", window.name, "name of its results").required().distinct();
         key.part(window.span, span_keys());
-        const char* reason = "cycles begin at crank angle 0";
-        key.number("cycles", window.cycles, {0.0, 1e5, true},
-                   "this many cycles of 720 degrees from crank angle 0, firing TDC of an engine")
+        const char* reason = "cycles are the last ones of the run";
+        key.integer("cycles", window.cycles, {1.0, 1000.0},
+                    "so many of the cycles that the run has recorded, the last ones, over which "
+                    "powers are averaged")
             .excludes("from_deg", reason)
             .excludes("to_deg", reason)
             .excludes("from_s", reason)
@@ -100,18 +101,18 @@ const Keys<WindowRule>& window_keys() {
                    "whether the samples are uniform in time or in crank angle, where lines are "
                    "orders");
         key.number("segment_deg", window.segments.length, Range::not_negative(),
-                   "length of the segments over which powers are averaged, 0 for the entire window")
+                   "length of the segments over which powers are averaged, 0 for the entire "
+                   "window: a cycle with cycles, else the entire window without it")
             .unconverted();
         key.number("segment_s", window.segments.length, Range::not_negative(), "the same as a time")
             .needs("domain", "time", "orders need segments of equal angle");
         key.in_either("segment_deg", "segment_s", window.segments.in_seconds);
         key.number("overlap", window.segments.overlap, Range::between(0.0, 0.95),
-                   "share of a segment that the next one repeats");
+                   "share of a segment that the next one repeats: 0 without it where segments are "
+                   "cycles by default, else 0.5");
         key.check([](const Config& table, WindowRule& w) {
           if (w.name == "cycle")
             table.fail("name", "found \"cycle\", the name of the last cycle, expected another one");
-          if (w.cycles) w.span = {0.0, 720.0 * *w.cycles};
-          w.cycles.reset();
         });
       });
   return keys;

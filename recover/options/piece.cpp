@@ -86,35 +86,63 @@ Span resampled_range(const RunClock& clock) {
   return {angle[kHalfWidth], angle[angle.size() - 1 - kHalfWidth]};
 }
 
-Piece cycle_by_angle(const RunClock& clock, const std::string& origin) {
+Piece cycles_by_angle(const RunClock& clock, const std::string& name, int cycles,
+                      const std::string& origin) {
   const Span range = resampled_range(clock);
-  if (range.to - range.from < kCycle)
+  const double length = cycles * kCycle;
+  if (range.to - range.from < length)
     throw InputError(fmt::format(
         "{}: output/crank_angle_deg: found {:.6g} degrees without the {} samples at each end, "
-        "expected a complete cycle of 720: its speed varies or it is no integer number of steps, "
-        "and values at uniform angles need samples around them",
-        origin, range.to - range.from, kHalfWidth));
-  Piece piece = by_angle(clock, "cycle", range.to - kCycle, range.to, origin);
-  piece.periodic = true;
+        "expected {} of {:g}: the speed varies, a cycle is no integer number of steps, or '{}' is "
+        "over the angle, and values at uniform angles need samples around them; record a cycle "
+        "more, time.record_cycles = {} in the run.toml",
+        origin, range.to - range.from, kHalfWidth,
+        cycles == 1 ? "a complete cycle" : fmt::format("{} cycles", cycles), length, name,
+        cycles + 1));
+  return by_angle(clock, name, range.to - length, range.to, origin);
+}
+
+/// Complete cycles in the samples of a run.
+int complete_cycles(const RunClock& clock) {
+  const double samples = static_cast<double>(clock.time.size());
+  return static_cast<int>(samples * clock.speed_deg_s() * clock.step_s / kCycle + 1e-3);
+}
+
+/// The last cycles of the run, undivided.
+Piece end_of_run(const RunClock& clock, const std::string& name, int cycles, Domain domain,
+                 const std::string& origin) {
+  const int64_t n_t = clock.time.size();
+  const double steps = kCycle / (clock.speed_deg_s() * clock.step_s);
+  // A remainder of a thousandth of a step is a phase error of 0.2 degrees at the Nyquist frequency.
+  const bool is_integer = std::abs(steps - std::round(steps)) <= 1e-3;
+  if (domain == Domain::kAngle || !clock.steady() || !is_integer)
+    return cycles_by_angle(clock, name, cycles, origin);
+  Piece piece{.name = name, .count = cycles * std::llround(steps), .step_s = clock.step_s};
+  // The last sample repeats the one a cycle earlier and is omitted where possible.
+  piece.first = std::max<int64_t>(n_t - 1 - piece.count, 0);
+  piece.first_s = clock.time[piece.first];
+  piece.ftdc_deg = kCycle * std::ceil(clock.angle_deg[piece.first] / kCycle - 1e-9);
+  piece.ftdc_s = clock.time_at(piece.ftdc_deg);
+  measure_speed(clock, piece.first, std::min(piece.first + piece.count, n_t - 1), piece);
   return piece;
 }
 
 /// Divides a window into segments, with the lengths of the rule.
 void divide(const SegmentRule& rule, const std::string& origin, Piece& piece) {
-  if (rule.length == 0.0) return;
+  const double length = rule.length.value_or(0.0), overlap = rule.overlap.value_or(0.5);
+  if (length == 0.0) return;
   const double step = rule.in_seconds                  ? piece.step_s
                       : piece.domain == Domain::kAngle ? piece.step_deg
                                                        : 360.0 * piece.mean_speed_hz * piece.step_s;
-  const double samples = step > 0.0 ? rule.length / step : 0.0;
+  const double samples = step > 0.0 ? length / step : 0.0;
   constexpr double kFewest = 8.0;
   if (!(samples > kFewest - 0.5) || samples > static_cast<double>(piece.count) + 0.5)
     throw InputError(fmt::format(
         "{}: window '{}': found segments of {:g} {}, {:.4g} samples, expected {:g} to {} samples",
-        origin, piece.name, rule.length, rule.in_seconds ? "s" : "deg", samples, kFewest,
-        piece.count));
+        origin, piece.name, length, rule.in_seconds ? "s" : "deg", samples, kFewest, piece.count));
   piece.segment = std::llround(samples);
   piece.hop =
-      std::max<int64_t>(std::llround(static_cast<double>(piece.segment) * (1.0 - rule.overlap)), 1);
+      std::max<int64_t>(std::llround(static_cast<double>(piece.segment) * (1.0 - overlap)), 1);
 }
 
 Piece window_by_angle(const RunClock& clock, const WindowRule& rule, const std::string& origin) {
@@ -161,7 +189,12 @@ double Piece::limit_hz(double to_hz, double run_step_s) const {
 
 Piece segment_of(const Piece& window, int64_t k) {
   Piece piece = window;
-  piece.first_s += static_cast<double>(k * window.hop) * window.step_s;
+  const int64_t moved = k * window.hop;
+  piece.first_s += static_cast<double>(moved) * window.step_s;
+  if (window.domain == Domain::kAngle)
+    piece.first_deg += static_cast<double>(moved) * window.step_deg;
+  else
+    piece.first += moved;
   if (window.hop > 0) piece.count = window.segment;
   piece.segment = piece.hop = 0;
   return piece;
@@ -226,25 +259,42 @@ Piece last_cycle(const RunClock& clock, const std::string& origin) {
   if (!clock.has_crank())
     throw InputError(origin + ": output/crank_angle_deg: a cycle needs a crank that turns");
   const int64_t n_t = clock.time.size();
-  const double steps = kCycle / (clock.speed_deg_s() * clock.step_s);
-  const int64_t count = std::llround(steps);
+  const int64_t count = std::llround(kCycle / (clock.speed_deg_s() * clock.step_s));
   if (count > n_t)
     throw InputError(fmt::format(
         "{}: output/time: found {} samples, expected a complete cycle of {}", origin, n_t, count));
-  // A remainder of a thousandth of a step is a phase error of 0.2 degrees at the Nyquist frequency.
-  if (!clock.steady() || std::abs(steps - static_cast<double>(count)) > 1e-3)
-    return cycle_by_angle(clock, origin);
-  Piece piece{.name = "cycle", .count = count, .step_s = clock.step_s, .periodic = true};
-  // The last sample repeats the one a cycle earlier and is omitted where possible.
-  piece.first = std::max<int64_t>(n_t - 1 - count, 0);
-  piece.first_s = clock.time[piece.first];
-  piece.ftdc_deg = kCycle * std::ceil(clock.angle_deg[piece.first] / kCycle - 1e-9);
-  piece.ftdc_s = clock.time_at(piece.ftdc_deg);
-  measure_speed(clock, piece.first, std::min(piece.first + count, n_t - 1), piece);
+  Piece piece = end_of_run(clock, "cycle", 1, Domain::kTime, origin);
+  piece.periodic = true;
+  return piece;
+}
+
+Piece last_cycles(const RunClock& clock, const WindowRule& rule, const std::string& origin) {
+  if (!clock.has_crank())
+    throw InputError(
+        fmt::format("{}: window '{}': cycles need a crank that turns: give a span in seconds",
+                    origin, rule.name));
+  const int cycles = rule.cycles.value(), found = complete_cycles(clock);
+  if (cycles > found)
+    throw InputError(fmt::format(
+        "{}: window '{}': cycles: found {}, expected at most the {} that the run has recorded: "
+        "give it record_cycles = {} in [time] of its run.toml",
+        origin, rule.name, cycles, found, cycles));
+  Piece piece = end_of_run(clock, rule.name, cycles, rule.domain, origin);
+  piece.taper = rule.taper;
+  const int64_t cycle = piece.count / cycles;
+  if (rule.segments.length) {
+    divide(rule.segments, origin, piece);
+  } else if (cycles > 1) {
+    const double overlap = rule.segments.overlap.value_or(0.0);
+    piece.segment = cycle;
+    piece.hop = std::max<int64_t>(std::llround(static_cast<double>(cycle) * (1.0 - overlap)), 1);
+  }
+  piece.periodic = piece.taper == Taper::kNone && segment_of(piece, 0).count == cycle;
   return piece;
 }
 
 Piece window(const RunClock& clock, const WindowRule& rule, const std::string& origin) {
+  if (rule.cycles) return last_cycles(clock, rule, origin);
   if (rule.domain == Domain::kAngle) return window_by_angle(clock, rule, origin);
   const Span& span = rule.span;
   Piece piece{.name = rule.name, .step_s = clock.step_s, .taper = rule.taper};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Pieces of a run: the last cycle, windows around an event, and the frames to be written.
+// Pieces of a run: the last cycles, windows around an event, and the frames to be written.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -28,9 +28,10 @@ std::string name_of(Domain domain);
 
 /// Segments into which a window is divided for averaging (Welch 1967).
 struct SegmentRule {
-  double length = 0.0;  // [deg], or [s]; 0: one segment, the entire window
+  std::optional<double> length{};  // [deg], or [s]; 0: one segment, the entire window
   bool in_seconds = false;
-  double overlap = 0.5;  // share of a segment that the next one repeats
+  /// Share of a segment that the next one repeats: 0.5 without it, 0 of cycles as segments.
+  std::optional<double> overlap{};
 };
 
 /// A window as requested.
@@ -40,7 +41,7 @@ struct WindowRule {
   Taper taper = Taper::kNone;
   Domain domain = Domain::kTime;
   SegmentRule segments{};
-  std::optional<double> cycles{};  // instead of the span, until it is read
+  std::optional<int> cycles{};  // so many at the end of the run, instead of the span
 };
 
 /// A range of the run in uniform steps: samples of the run, or values at uniform crank angles
@@ -53,7 +54,7 @@ struct Piece {
   double first_s = 0.0;   // run time of the first sample [s]
   double ftdc_s = 0.0;    // time origin of phases in run time: firing TDC [s]
   double ftdc_deg = 0.0;  // crank angle there, a multiple of 720
-  bool periodic = false;  // the piece is exactly one cycle
+  bool periodic = false;  // the piece, or each segment of it, is exactly one cycle
   Taper taper = Taper::kNone;
   Domain domain = Domain::kTime;
   double first_deg = 0.0, step_deg = 0.0;              // over the angle only
@@ -63,6 +64,8 @@ struct Piece {
   double start_s() const { return first_s - ftdc_s; }
   double duration_s() const { return static_cast<double>(count) * step_s; }
   int64_t segments() const { return hop > 0 ? (count - segment) / hop + 1 : 1; }
+  /// Whether powers are means over cycles, each one a segment.
+  bool is_mean_of_cycles() const { return periodic && hop > 0 && hop == segment; }
   /// Whether the powers are means over an event, of which the energy power * duration_s() is the
   /// result: a taper or segments are for what goes on.
   bool has_energy() const { return !periodic && taper == Taper::kNone && segments() == 1; }
@@ -76,8 +79,14 @@ struct Piece {
 /// @throws InputError when the run is shorter than a cycle, or its speed varies too much
 Piece last_cycle(const RunClock& clock, const std::string& origin);
 
-/// The samples in a span, the one at its end excluded, so that tones that fit the span have lines
-/// of their own; in degrees about the last firing TDC for which the run covers the span.
+/// The last `cycles` of 720 degrees under a name of their own, one cycle being the last one: as
+/// last_cycle(), to the bit. Several are divided into cycles unless the rule says otherwise.
+/// @throws InputError when the run has recorded fewer, or segments do not fit
+Piece last_cycles(const RunClock& clock, const WindowRule& rule, const std::string& origin);
+
+/// The window of a rule: last_cycles(), or the samples in a span, the one at its end excluded, so
+/// that tones that fit the span have lines of their own; in degrees about the last firing TDC for
+/// which the run covers the span.
 /// @throws InputError when the run does not cover it, it holds fewer than 2 samples, or segments do
 /// not fit
 Piece window(const RunClock& clock, const WindowRule& rule, const std::string& origin);

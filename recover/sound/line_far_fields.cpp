@@ -87,6 +87,20 @@ void add_sample(double to_power, const LineSpectrum& velocity, const SampleLines
 
 }  // namespace
 
+LineSums& LineSums::operator+=(const LineSums& other) {
+  power += other.power;
+  for (size_t k = 0; k < exchange.size(); ++k) exchange[k] += other.exchange[k];
+  mean_square += other.mean_square;
+  return *this;
+}
+
+LineSums& LineSums::operator/=(double count) {
+  power /= count;
+  for (Eigen::MatrixXd& line : exchange) line /= count;
+  mean_square /= count;
+  return *this;
+}
+
 PanelParts panel_parts(const SoundTable& table, const IndexMatrix& triangles,
                        const rom::SkinRows& T, const std::vector<Panel>& panels) {
   const Eigen::Index n_f = triangles.rows();

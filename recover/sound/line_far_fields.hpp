@@ -35,6 +35,9 @@ struct LineSums {
   Eigen::VectorXd power{};                  // n_l [W], of the sum of the parts; 0 at 0 Hz
   std::vector<Eigen::MatrixXd> exchange{};  // n_l: parts x parts [W], symmetric
   Eigen::MatrixXd mean_square{};            // n_l x n_d, p^2 r^2 in each direction [Pa2 m2]
+
+  LineSums& operator+=(const LineSums& other);
+  LineSums& operator/=(double count);
 };
 
 /// Sums over the lines up to the end of the table, some hundred lines at a time.

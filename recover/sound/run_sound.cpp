@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/sound/spherical_harmonics.hpp"
 #include "recover/field/field_values.hpp"
@@ -42,20 +43,80 @@ double relative_difference(const Eigen::VectorXd& one, const Eigen::VectorXd& ot
   return sum > 0.0 ? (one - other).cwiseAbs().maxCoeff() / sum : 0.0;
 }
 
-MicrophoneResult microphone_result(const std::string& name, const Eigen::VectorXcd& pressure,
-                                   const Analysis& analysis, const Options& options,
-                                   const ThirdOctaves& bands) {
+/// Pressures at the microphones, n_m x lines [Pa].
+Eigen::MatrixXcd pressures(const SoundTable& table, const LineSpectrum& velocity,
+                           Eigen::Index lines) {
+  Eigen::MatrixXcd pressure = Eigen::MatrixXcd::Zero(table.distance.size(), lines);
+  for (Eigen::Index k = 0; k < lines; ++k)
+    if (const double f = velocity.frequency_hz[k]; f > 0.0)
+      pressure.col(k) = microphones_at(table, f) * velocity.amplitude.row(k).transpose();
+  return pressure;
+}
+
+/// Sets the levels of a microphone from its mean squares.
+void set_levels(const Analysis& analysis, const Options& options, const ThirdOctaves& bands,
+                MicrophoneResult& microphone) {
   const LineSpectrum& velocity = analysis.velocity;
-  const Eigen::Index lines = pressure.size();
-  const Eigen::VectorXd frequency_hz = velocity.frequency_hz.head(lines);
-  const Eigen::VectorXd squares =
-      velocity.power_factor.head(lines).cwiseProduct(pressure.cwiseAbs2());
+  const Eigen::VectorXd& squares = microphone.square;
+  const Eigen::VectorXd frequency_hz = velocity.frequency_hz.head(squares.size());
   const double reference = kPressureReference * kPressureReference;
   const double from_hz = options.spectrum.from_hz;
-  return {name, pressure,
-          levels_db(band_sums(frequency_hz, squares, bands, velocity.periodic), reference),
-          level_db(total(frequency_hz, squares, from_hz, false), reference),
-          level_db(total(frequency_hz, squares, from_hz, true), reference)};
+  microphone.band_db =
+      levels_db(band_sums(frequency_hz, squares, bands, velocity.periodic), reference);
+  microphone.total_db = level_db(total(frequency_hz, squares, from_hz, false), reference);
+  microphone.total_dba = level_db(total(frequency_hz, squares, from_hz, true), reference);
+}
+
+/// What the segments of a piece send, their powers averaged.
+struct MeanLines {
+  LineSums sums{};
+  Eigen::VectorXd power{}, by_R{};  // per line [W]: with the ERP above the table; by resistance
+  std::vector<MicrophoneResult> microphones{};
+  LevelError error{};  // of the power
+};
+
+MeanLines mean_lines(const SoundTable& table, const Analysis& analysis,
+                     const std::function<SegmentLines(int64_t k)>& segment, const PanelParts& parts,
+                     const Eigen::MatrixXd& harmonics, double from_hz) {
+  const LineSpectrum& axis = analysis.velocity;
+  const Eigen::Index lines = lines_of_table(table, axis);
+  const int64_t count = analysis.piece.segments();
+  MeanLines out{.power = Eigen::VectorXd::Zero(axis.frequency_hz.size()),
+                .by_R = Eigen::VectorXd::Zero(lines)};
+  for (const auto& microphone : table.microphones)
+    out.microphones.push_back({.name = microphone.name, .square = Eigen::VectorXd::Zero(lines)});
+  SegmentTotals radiated(from_hz);
+  std::vector<SegmentTotals> heard(out.microphones.size(), SegmentTotals(from_hz));
+  for (int64_t k = 0; k < count; ++k) {
+    SegmentLines now = segment(k);
+    LineSums sums = line_sums(table, now.velocity, parts, harmonics);
+    // Interpolation between squares may leave rounding of the size of its error.
+    now.erp.head(lines) = sums.power.cwiseMax(0.0);
+    radiated.add(axis.frequency_hz, now.erp);
+    out.power += now.erp;
+    out.by_R += resistance_power(table, now.velocity, lines);
+    const Eigen::MatrixXcd pressure = pressures(table, now.velocity, lines);
+    for (size_t m = 0; m < out.microphones.size(); ++m) {
+      MicrophoneResult& microphone = out.microphones[m];
+      const Eigen::VectorXcd p = pressure.row(static_cast<Eigen::Index>(m)).transpose();
+      const Eigen::VectorXd square = axis.power_factor.head(lines).cwiseProduct(p.cwiseAbs2());
+      heard[m].add(axis.frequency_hz, square);
+      microphone.square += square / static_cast<double>(count);
+      if (count == 1) microphone.pressure = p;
+    }
+    if (k == 0)
+      out.sums = std::move(sums);
+    else
+      out.sums += sums;
+  }
+  const double n = static_cast<double>(count);
+  out.sums /= n;
+  out.power /= n;
+  out.by_R /= n;
+  const double averages = equivalent_averages(analysis.piece);
+  out.error = radiated.error(averages);
+  for (size_t m = 0; m < heard.size(); ++m) out.microphones[m].error = heard[m].error(averages);
+  return out;
 }
 
 SurfaceResult surface_result(const SoundTable& table, const Analysis& analysis,
@@ -67,8 +128,8 @@ SurfaceResult surface_result(const SoundTable& table, const Analysis& analysis,
   const LineSpectrum& velocity = analysis.velocity;
   const Eigen::Index lines = lines_of_table(table, velocity);
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(lines);
-  for (size_t m = 0; m < count; ++m) squares += sound.microphones[m].pressure.cwiseAbs2();
-  squares = squares.cwiseProduct(velocity.power_factor.head(lines)) / static_cast<double>(count);
+  for (size_t m = 0; m < count; ++m) squares += sound.microphones[m].square;
+  squares /= static_cast<double>(count);
   const Eigen::VectorXd frequency_hz = velocity.frequency_hz.head(lines);
   const double reference = kPressureReference * kPressureReference;
   SurfaceResult out{.name = name_of(surface.set), .area = surface.area};
@@ -114,23 +175,19 @@ std::string panel_line(const PanelSound& sound, size_t panel, const LevelReferen
 
 }  // namespace
 
-RunSound run_sound(const SoundTable& table, const Analysis& analysis, const PanelParts& parts,
-                   const PanelResult& erp, const Options& options) {
+RunSound run_sound(const SoundTable& table, const Analysis& analysis,
+                   const std::function<SegmentLines(int64_t k)>& segment, const PanelParts& parts,
+                   const Options& options) {
   const LineSpectrum& velocity = analysis.velocity;
-  const Eigen::Index lines = lines_of_table(table, velocity);
   const int degree = far_degree(table);
   const sound::Directions directions = sound::sphere_directions(degree);
-  LineSums sums =
-      line_sums(table, velocity, parts, sound::spherical_harmonics(directions.unit, degree));
-  RunSound out{.to_hz = table.to_hz(), .power = erp.erp};
-  // Interpolation between squares may leave rounding of the size of its error.
-  out.power.head(lines) = sums.power.cwiseMax(0.0);
-  out.resistance_difference =
-      relative_difference(resistance_power(table, velocity, lines), sums.power);
-  Eigen::MatrixXcd pressure = Eigen::MatrixXcd::Zero(table.distance.size(), lines);
-  for (Eigen::Index k = 0; k < lines; ++k)
-    if (const double f = velocity.frequency_hz[k]; f > 0.0)
-      pressure.col(k) = microphones_at(table, f) * velocity.amplitude.row(k).transpose();
+  MeanLines mean =
+      mean_lines(table, analysis, segment, parts,
+                 sound::spherical_harmonics(directions.unit, degree), options.spectrum.from_hz);
+  LineSums& sums = mean.sums;
+  RunSound out{.to_hz = table.to_hz(), .power = mean.power};
+  out.error = mean.error;
+  out.resistance_difference = relative_difference(mean.by_R, sums.power);
   const Eigen::VectorXd weighted =
       out.power.cwiseProduct(velocity.frequency_hz.unaryExpr(&a_weighting_power));
   const auto in_bands = [&](const Eigen::VectorXd& power) {
@@ -141,10 +198,9 @@ RunSound run_sound(const SoundTable& table, const Analysis& analysis, const Pane
   out.total = total(velocity.frequency_hz, out.power, options.spectrum.from_hz, false);
   out.total_a = total(velocity.frequency_hz, out.power, options.spectrum.from_hz, true);
   const ThirdOctaves bands = bands_of_table(table, analysis, options);
-  for (size_t m = 0; m < table.microphones.size(); ++m)
-    out.microphones.push_back(microphone_result(
-        table.microphones[m].name, pressure.row(static_cast<Eigen::Index>(m)).transpose(), analysis,
-        options, bands));
+  out.microphones = std::move(mean.microphones);
+  for (MicrophoneResult& microphone : out.microphones)
+    set_levels(analysis, options, bands, microphone);
   out.surface = surface_result(table, analysis, options, bands, out);
   out.directivity = directivity(table, velocity, sums, directions, bands);
   out.panels = panel_sound(analysis, parts, std::move(sums), bands, options);
@@ -164,6 +220,7 @@ void write_run_sound(H5File& file, const Analysis& analysis, const RunSound& sou
   file.set(at, "power_w", sound.total);
   file.set(at, "power_db", level_db(sound.total, references.power));
   file.set(at, "power_dba", level_db(sound.total_a, references.power));
+  set_level_error(file, at, "power", sound.error);
   if (analysis.piece.has_energy()) {
     const double duration = analysis.piece.duration_s();
     file.set(at, "energy_j", sound.total * duration);
@@ -172,12 +229,17 @@ void write_run_sound(H5File& file, const Analysis& analysis, const RunSound& sou
   }
   for (const MicrophoneResult& microphone : sound.microphones) {
     const std::string name = at + "/microphones/" + microphone.name;
-    put_complex<Eigen::VectorXd>(file, name + "/pressure", microphone.pressure, "Pa",
-                                 "pressure per line up to boundary_elements_to_hz");
+    const std::string meaning = "pressure per line up to boundary_elements_to_hz";
+    if (analysis.piece.segments() == 1)
+      put_complex<Eigen::VectorXd>(file, name + "/pressure", microphone.pressure, "Pa", meaning);
+    else
+      put(file, name + "/pressure_power", microphone.square, "Pa2",
+          "mean square " + meaning + ", averaged over the segments");
     put_level(file, name + "/third_octave/pressure_db", microphone.band_db, kPressureReference,
               "Pa", "sound pressure, the first third octaves of the analysis");
     file.set(name, "pressure_db", microphone.total_db);
     file.set(name, "pressure_dba", microphone.total_dba);
+    set_level_error(file, name, "pressure", microphone.error);
   }
   write_surface(file, at + "/measurement_surface", sound.surface, references);
   write_panel_sound(file, analysis.piece.name, sound.panels, references);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Radiated sound of a piece of a run.
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/base/h5_file.hpp"
@@ -12,9 +14,11 @@ namespace clatter::recover {
 /// Sound of one microphone.
 struct MicrophoneResult {
   std::string name{};
-  Eigen::VectorXcd pressure{};  // lines up to RunSound::to_hz, peak [Pa]
+  Eigen::VectorXcd pressure{};  // lines up to RunSound::to_hz, peak [Pa]; of one segment
+  Eigen::VectorXd square{};     // mean square per line, mean of the segments [Pa2]
   Eigen::VectorXd band_db{};    // per third octave that ends below to_hz, re 20 uPa
   double total_db = 0.0, total_dba = 0.0;
+  LevelError error{};
 };
 
 /// The level on the measurement surface: the mean square of its microphones, and the sound power
@@ -33,6 +37,7 @@ struct RunSound {
   Eigen::VectorXd power{};                // per line of the analysis [W]
   Eigen::VectorXd band_db{}, band_dba{};  // per third octave of the analysis, re 1 pW
   double total = 0.0, total_a = 0.0;      // [W], lines inside the spectrum's band
+  LevelError error{};                     // of both
   std::vector<MicrophoneResult> microphones{};
   SurfaceResult surface{};
   /// |v^H R v less the power of F|, of the line where it is largest, over the power of all lines: R
@@ -43,11 +48,12 @@ struct RunSound {
 };
 
 /// P_k = power_factor_k int |F_k|^2 / (rho c), F_k = G(f_k) Q v_k, and p_k = H(f_k) v_k of each
-/// line.
+/// line; of several segments the mean of their powers.
+/// @param segment those of segment k, with the panel whose ERP is taken above the table
 /// @param parts of the body by panels, panel_parts()
-/// @param erp panel whose ERP is taken above the table
-RunSound run_sound(const SoundTable& table, const Analysis& analysis, const PanelParts& parts,
-                   const PanelResult& erp, const Options& options);
+RunSound run_sound(const SoundTable& table, const Analysis& analysis,
+                   const std::function<SegmentLines(int64_t k)>& segment, const PanelParts& parts,
+                   const Options& options);
 
 /// Writes `analysis/<piece>/sound`.
 void write_run_sound(H5File& file, const Analysis& analysis, const RunSound& sound,

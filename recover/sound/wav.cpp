@@ -17,12 +17,15 @@
 namespace clatter::recover {
 namespace {
 
-/// The piece of the run that is heard: the cycle, else the first window with microphones.
+/// The piece of the run that is heard: the cycle, else the first window with pressures at
+/// microphones, which means over segments have not.
 std::string heard_piece(const H5File& file) {
   std::vector<std::string> pieces = file.list("analysis");
   std::ranges::stable_partition(pieces, [](const std::string& name) { return name == "cycle"; });
   for (const std::string& name : pieces)
-    if (file.has("analysis/" + name + "/sound/microphones")) return name;
+    if (const std::string at = "analysis/" + name;
+        file.has(at + "/sound/microphones") && file.get_int(at, "averages") == 1)
+      return name;
   throw InputError(fmt::format(
       "{}: analysis: found no microphones, expected a field with a cycle or a window in "
       "one segment and `sound` in its field.toml",

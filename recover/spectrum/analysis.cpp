@@ -136,17 +136,24 @@ Analysis analyse(const RunBody& body, const Piece& piece, const Options& options
       third_octaves(options.spectrum.from_hz,
                     covered_to_hz(lines.frequency_hz, to_hz, lines.periodic), lines.spacing_hz());
   // One transform of a segment serves all panels: their powers are adjacent columns.
+  const double averages = equivalent_averages(piece);
+  std::vector<SegmentTotals> totals(forms.size(), SegmentTotals(options.spectrum.from_hz));
   const auto powers = [&](const LineSpectrum& velocity) {
     Eigen::MatrixXd columns(velocity.frequency_hz.size(), static_cast<Eigen::Index>(forms.size()));
-    for (size_t p = 0; p < forms.size(); ++p)
-      columns.col(static_cast<Eigen::Index>(p)) = panel_powers(forms[p], velocity);
+    for (size_t p = 0; p < forms.size(); ++p) {
+      const Eigen::VectorXd power = panel_powers(forms[p], velocity);
+      totals[p].add(velocity.frequency_hz, power);
+      columns.col(static_cast<Eigen::Index>(p)) = power;
+    }
     return columns;
   };
   const Eigen::MatrixXd mean_square = averaged(piece, v, to_hz, analysis.velocity, powers);
-  for (size_t p = 0; p < forms.size(); ++p)
+  for (size_t p = 0; p < forms.size(); ++p) {
     analysis.panels.push_back(radiate(forms[p], analysis.velocity,
                                       mean_square.col(static_cast<Eigen::Index>(p)), v,
                                       analysis.bands, options, p == 0 || options.output.samples));
+    analysis.panels.back().erp_error = totals[p].error(averages);
+  }
   if (piece.segments() > 1) analysis.velocity.amplitude.resize(0, v.cols());
   if (sensors.empty()) return analysis;
 
@@ -168,6 +175,14 @@ double equivalent_averages(const Piece& window) {
     sum += 2.0 * (1.0 - static_cast<double>(j) / static_cast<double>(n)) * rho * rho;
   }
   return static_cast<double>(n) / sum;
+}
+
+SegmentLines segment_lines(const RunBody& body, const Piece& segment, const PanelForm& panel,
+                           const Air& air, double to_hz) {
+  SegmentLines lines{line_spectrum(segment, piece_samples(body, segment, "v"),
+                                   segment.limit_hz(to_hz, body.clock().step_s))};
+  lines.erp = equivalent_radiated_power(air, panel.area, 1.0) * panel_powers(panel, lines.velocity);
+  return lines;
 }
 
 double last_tenth_share(const Analysis& analysis) {

@@ -10,6 +10,7 @@
 #include "recover/run/run_input.hpp"
 #include "recover/skin/radiated_power.hpp"
 #include "recover/skin/sensors.hpp"
+#include "recover/spectrum/level_error.hpp"
 #include "recover/spectrum/levels.hpp"
 #include "recover/spectrum/spectra.hpp"
 
@@ -28,6 +29,7 @@ struct PanelResult {
                                            // OutputRule::samples of the first panel only
   double total_erp = 0.0;                  // [W], lines inside the spectrum's band
   double total_erp_a = 0.0;                // [W], A-weighted
+  LevelError erp_error{};                  // of both
 };
 
 /// Motion of one sensor; rows are samples, lines or bands, columns are channels.
@@ -62,6 +64,14 @@ Analysis analyse(const RunBody& body, const Piece& piece, const Options& options
 /// `window`, which overlap: n / (1 + 2 sum_j (1 - j/n) rho_j), rho_j the squared correlation of the
 /// taper with itself, moved by j hops, over that at j = 0 (Welch 1967).
 double equivalent_averages(const Piece& window);
+
+/// Lines of one segment of a piece: reduced velocities, and what a panel radiates.
+struct SegmentLines {
+  LineSpectrum velocity{};
+  Eigen::VectorXd erp{};  // [W]
+};
+SegmentLines segment_lines(const RunBody& body, const Piece& segment, const PanelForm& panel,
+                           const Air& air, double to_hz);
 
 /// Share of the skin's mean square normal velocity in the last tenth of the samples: of an event
 /// that the window holds it is small, of steady motion a tenth.

@@ -264,7 +264,7 @@ TEST(FieldFile, PanelsOfSurfacesAndWindowsOverTheAngleReachTheFile) {
 TEST(FieldFile, LinesNeedAnAnalysisWithPhases) {
   const auto run = random_run("phases", box({1, 1, 1}, 1));
   const std::string averaged =
-      "cycle = false\n[[window]]\nname = \"w\"\ncycles = 1.5\nsegment_deg = 360\n";
+      "cycle = false\n[[window]]\nname = \"w\"\ncycles = 2\nsegment_deg = 360\n";
   test::expect_parts(
       test::refusal_of([&] { recover_file(run, averaged + "[lines]\norders = [12]\n"); }),
       {"lines need a cycle or a window in one segment"});

@@ -42,8 +42,8 @@ TEST(Options, UnknownKeysAndContradictionsAreRefused) {
   EXPECT_EQ(refusal("[frames]\nquantities = []"),
             "test.toml:2: frames.quantities: found none, expected at least one");
   EXPECT_EQ(refusal("[[window]]\nname = \"w\"\ncycles = 2\nto_deg = 5"),
-            "test.toml:3: window[0].cycles: cycles and to_deg exclude each other: cycles begin at "
-            "crank angle 0");
+            "test.toml:3: window[0].cycles: cycles and to_deg exclude each other: cycles are the "
+            "last ones of the run");
   EXPECT_EQ(refusal("[[window]]\nname = \"w\"\nsegment_s = 0.1\ndomain = \"angle\""),
             "test.toml:3: window[0].segment_s: needs domain = \"time\": orders need segments of "
             "equal angle");

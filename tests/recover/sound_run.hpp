@@ -67,8 +67,8 @@ class SoundRun : public ::testing::Test {
       return m;
     });
   }
-  void write_inputs(const MotionLaw& law) {
-    write_run(folder_, sphere_model(), RunPlan{}, law);
+  void write_inputs(const MotionLaw& law, const RunPlan& plan = {}) {
+    write_run(folder_, sphere_model(), plan, law);
     rom_ = sha256_of_file(folder_ / "rom.h5");
     H5File file = H5File::create(folder_ / "part.sound.h5");
     file.set("/", "schema", kSoundSchema);

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Means over the last cycles of a run, and their standard errors.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "sound_run.hpp"
+#include "tests/refusal.hpp"
+
+namespace clatter::recover {
+namespace {
+
+using namespace testing;
+
+/// Standard error of the mean of independent values as a level [dB], as textbooks write it.
+double error_db(const std::vector<double>& P) {
+  const double n = static_cast<double>(P.size());
+  const double mean = std::accumulate(P.begin(), P.end(), 0.0) / n;
+  double squares = 0.0;
+  for (const double one : P) squares += (one - mean) * (one - mean);
+  return 4.342944819032518 * std::sqrt(squares / (n - 1.0) / n) / mean;
+}
+
+/// Five cycles of the sphere's tone, whose amplitude is another one in each.
+class CycleMeans : public SoundRun {
+ protected:
+  void SetUp() override {
+    SoundRun::SetUp();
+    const double w = 2 * kPi * kLine;
+    write_inputs(
+        [this, w](double t) {
+          const auto cycle = static_cast<size_t>(std::floor(t / plan_.cycle_s() + 1e-6));
+          const Eigen::Vector2d q = kSize.at(std::min<size_t>(cycle, 4)) * kMotion;
+          return Motion{q * std::cos(w * t), -w * q * std::sin(w * t),
+                        -w * w * q * std::cos(w * t)};
+        },
+        plan_);
+  }
+  Summary of(const std::string& window) {
+    return recovered("sound = 'part.sound.h5'\n[spectrum]\nto_hz = 1500\n[[window]]\nname = 'w'\n" +
+                     window);
+  }
+  std::string refusal(const std::string& window) {
+    return test::refusal_of([&] { of(window); });
+  }
+  /// Powers of the last cycles, for one of `last` in the last one.
+  std::vector<double> powers(size_t cycles, double last) const {
+    std::vector<double> P;
+    for (size_t c = kSize.size() - cycles; c < kSize.size(); ++c)
+      P.push_back(last * std::pow(kSize[c] / kSize.back(), 2));
+    return P;
+  }
+  static double mean(const std::vector<double>& P) {
+    return std::accumulate(P.begin(), P.end(), 0.0) / static_cast<double>(P.size());
+  }
+
+  static constexpr std::array<double, 5> kSize{7.0, 1.0, 1.3, 0.7, 1.1};
+  const RunPlan plan_{.cycles = 5};
+};
+
+TEST_F(CycleMeans, LevelsAreThoseOfTheMeanPowerWithItsStandardError) {
+  const Summary summary = of("cycles = 4\n");
+  const Analysis &cycle = summary.analyses.at(0), &window = summary.analyses.at(1);
+  EXPECT_EQ(window.piece.segments(), 4);
+  EXPECT_TRUE(window.piece.is_mean_of_cycles());
+  EXPECT_FALSE(cycle.panels[0].erp_error.db.has_value());
+  const std::vector<double> erp = powers(4, cycle.panels[0].total_erp);
+  EXPECT_NEAR(window.panels[0].total_erp, mean(erp), 1e-9 * mean(erp));
+  EXPECT_NEAR(window.panels[0].erp_error.db.value(), error_db(erp), 1e-9);
+  const RunSound &last = summary.sounds.at(0), &sound = summary.sounds.at(1);
+  const std::vector<double> P = powers(4, last.total);
+  EXPECT_NEAR(sound.total, mean(P), 1e-9 * mean(P));
+  EXPECT_NEAR(sound.total_a, mean(powers(4, last.total_a)), 1e-9 * last.total_a);
+  EXPECT_NEAR(sound.error.db.value(), error_db(P), 1e-9);
+  EXPECT_NEAR(sound.error.dba.value(), error_db(P), 1e-9);  // one tone, weighted or not
+  EXPECT_GT(error_db(P), 0.5);
+  // Panels, directions and microphones have the same mean.
+  const double raised = 10.0 * std::log10(mean(P) / last.total);
+  EXPECT_NEAR(sound.panels.total[0], mean(powers(4, last.panels.total[0])), 1e-9 * mean(P));
+  EXPECT_NEAR(sound.microphones[kAbove].total_db - last.microphones[kAbove].total_db, raised, 1e-6);
+  EXPECT_NEAR(sound.microphones[kAbove].error.db.value(), error_db(P), 1e-9);
+  EXPECT_NEAR(sound.surface.pressure_db - last.surface.pressure_db, raised, 1e-6);
+  EXPECT_NEAR(sound.directivity.mean_square.sum() / last.directivity.mean_square.sum(),
+              mean(P) / last.total, 1e-9);
+  EXPECT_NEAR(sound.panels.sum_difference, last.panels.sum_difference, 1e-9);
+
+  const H5File file = H5File::open(folder_ / "field.h5");
+  const std::string at = "analysis/w/sound";
+  EXPECT_NEAR(file.get_double(at, "power_standard_error_dba"), error_db(P), 1e-9);
+  EXPECT_NEAR(file.get_double("analysis/w/panels/skin", "erp_standard_error_db"), error_db(erp),
+              1e-9);
+  EXPECT_FALSE(file.has_attribute("analysis/cycle/sound", "power_standard_error_db"));
+  EXPECT_TRUE(file.has(at + "/microphones/above/pressure_power"));
+  EXPECT_FALSE(file.has(at + "/microphones/above/pressure_re"));
+  const std::string text = summary_text(summary);
+  const std::string line =
+      fmt::format("'w': sound power {:.1f} dB(A) +- {:.2g} dB re 1 pW (4 cycles)\n",
+                  10.0 * std::log10(sound.total_a / 1e-12), error_db(P));
+  EXPECT_NE(text.find(line), std::string::npos) << text;
+  EXPECT_NE(text.find("'w': ERP of exposed"), std::string::npos);
+}
+
+TEST_F(CycleMeans, OneCycleIsTheLastCycleToTheBit) {
+  const Summary summary = of("cycles = 1\n");
+  const Analysis &cycle = summary.analyses.at(0), &window = summary.analyses.at(1);
+  EXPECT_EQ(window.piece.count, cycle.piece.count);
+  EXPECT_EQ(window.velocity.amplitude, cycle.velocity.amplitude);
+  EXPECT_EQ(window.panels[0].band_erp_dba, cycle.panels[0].band_erp_dba);
+  EXPECT_EQ(summary.sounds.at(1).total_a, summary.sounds.at(0).total_a);
+  EXPECT_FALSE(summary.sounds.at(1).error.db.has_value());
+}
+
+TEST_F(CycleMeans, ARunThatBeginsBeforeFiringIsCoveredByItsCycle) {
+  // As every run of an engine, from -360 to 360 deg; before, cycles began at firing.
+  write_run(folder_, sphere_model(), {.cycles = 1, .first_angle_deg = -360.0}, [](double) {
+    return Motion{{1, 1}, {1, 1}, {1, 1}};
+  });
+  const RunBody body(folder_ / "run.h5", "");
+  const Piece piece = window(body.clock(), {.name = "w", .cycles = 1}, "run");
+  EXPECT_EQ(piece.first, 0);
+  EXPECT_EQ(piece.count, 720);
+  EXPECT_EQ(piece.ftdc_deg, 0.0);
+}
+
+TEST_F(CycleMeans, SegmentsThatOverlapCountAsTheEquivalentNumber) {
+  // Two cycles each, half overlapping without the key; then the same one by one.
+  std::string windows = "cycles = 4\nsegment_deg = 1440\ntaper = 'hann'\n";
+  for (const char* begin : {"0.06", "0.12", "0.18"})
+    windows +=
+        fmt::format("[[window]]\nname = '{0}'\nfrom_s = {0}\nto_s = {1:.2f}\ntaper = 'hann'\n",
+                    begin, std::stod(begin) + 0.12);
+  const Summary summary = of(windows);
+  const Analysis& window = summary.analyses.at(1);
+  ASSERT_EQ(window.piece.segments(), 3);
+  EXPECT_FALSE(window.piece.is_mean_of_cycles());
+  std::vector<double> P;
+  for (size_t k = 2; k < 5; ++k) P.push_back(summary.sounds.at(k).total);
+  EXPECT_NEAR(summary.sounds.at(1).total, mean(P), 1e-9 * mean(P));
+  const double n_e = equivalent_averages(window.piece);
+  EXPECT_LT(n_e, 3.0);
+  EXPECT_NEAR(summary.sounds.at(1).error.db.value(), error_db(P) * std::sqrt(2.0 / (n_e - 1.0)),
+              1e-9);
+}
+
+TEST_F(CycleMeans, AnglesHaveTheSameMeans) {
+  const Summary summary = of("cycles = 3\ndomain = 'angle'\n");
+  // The interpolation needs 20 samples after the window: it ends before the run.
+  const Analysis& window = summary.analyses.at(1);
+  EXPECT_EQ(window.piece.segments(), 3);
+  EXPECT_TRUE(window.piece.is_mean_of_cycles());
+  EXPECT_NEAR(summary.sounds.at(1).total, mean(powers(3, summary.sounds.at(0).total)),
+              0.1 * summary.sounds.at(0).total);
+  EXPECT_GT(summary.sounds.at(1).error.db.value(), 0.5);
+}
+
+TEST_F(CycleMeans, MoreThanWereRecordedAreRefusedWithTheKeyOfTheRun) {
+  EXPECT_EQ(refusal("cycles = 6\n"),
+            (folder_ / "run.h5").string() +
+                ": window 'w': cycles: found 6, expected at most the 5 that the run has recorded: "
+                "give it record_cycles = 6 in [time] of its run.toml");
+  test::expect_parts(refusal("cycles = 5\ndomain = 'angle'\n"),
+                     {"expected 5 cycles of 3600", "time.record_cycles = 6"});
+  test::expect_parts(refusal("cycles = 2.5\n"), {"cycles: found 2.5, expected a whole number"});
+}
+
+TEST(LevelErrors, OfValuesByHand) {
+  // 1, 2, 3: mean 2, s = 1 / sqrt(3).
+  EXPECT_NEAR(level_error_db({1.0, 2.0, 3.0}, 3.0).value(), 4.342944819 / std::sqrt(3.0) / 2.0,
+              1e-8);
+  EXPECT_FALSE(level_error_db({1.0}, 1.0).has_value());
+  EXPECT_FALSE(level_error_db({0.0, 0.0}, 2.0).has_value());
+}
+
+}  // namespace
+}  // namespace clatter::recover
