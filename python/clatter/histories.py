@@ -57,6 +57,12 @@ def last_cycle(angle):
     return slice(first, None)
 
 
+def last_cycle_of_fields(angle):
+    """Slice of the last cycle of fields that are recorded at intervals, which has each of its crank angles once."""
+    spacing = float(np.median(np.diff(angle))) if len(angle) > 1 else 0.0
+    return slice(int(np.searchsorted(angle, angle[-1] - 720.0 + 0.5 * spacing)), None)
+
+
 def centred(angle):
     """Maps the last cycle's angles to -360 .. 360 deg about firing TDC, and the permutation that sorts them."""
     wrapped = (angle + 360.0) % 720.0 - 360.0

@@ -242,6 +242,14 @@ class Commands(Folder):
                          "cam: order 1.5 is largest at about 3205 rpm, 9.10 rad/s (3 speeds, 1500 to 4500 rpm)"):
             self.assertIn(expected, done.stdout)
 
+    def test_a_single_run_has_its_orders_as_bars_and_a_table(self):
+        synthetic_drive.write_drive(self.folder / "one.run.h5", rpm=2400.0)
+        done = clatter("orders", "one.run.h5", "--history", "bracket_acceleration", "--orders", "1.5,20", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"2400 +123\.\d* +123 +111")  # peaks of 2 and 0.5 m/s2
+        self.assertNotIn("is largest at", done.stdout)
+        self.assertIn("order, multiple of 40 Hz", (self.folder / "campbell.svg").read_text())
+
     def test_what_cannot_be_drawn_is_refused_in_one_line(self):
         self.chain()
         synthetic.write_run(self.folder / "slap.run.h5")
@@ -254,8 +262,8 @@ class Commands(Folder):
                                     (("plot", "valves", "slap.run.h5"), "found no <valve>_coil_gap"),
                                     (("plot", "speed", "slap.run.h5"), "found no shapes of a chain"),
                                     (("orders", run, "--history", "nothing"), "history/nothing: missing"),
-                                    (("orders", run, "--history", "chain_cam_speed"), "found runs at 3000 rpm, expected at least two"),
-                                    (("orders", run, run, "--history", "chain_cam_speed"), "of different speeds"),
+                                    (("orders", run, run, "--history", "chain_cam_speed"), "found runs at 3000, 3000 rpm, expected different speeds"),
+                                    (("orders", run, "--history", "chain_cam_speed", "--to-hz", "1"), "found no half order up to 1 Hz"),
                                     (("orders", run, "--history", "chain_cam_speed", "--orders", "1.3"), "expected multiples of 0.5"),
                                     (("orders", run, "--history", "chain_cam_speed", "--cycles", "0"), "--cycles: found 0"),
                                     (("orders", "short.run.h5", "--history", "chain_cam_speed"), "found 0.5 cycles of 720 deg")):

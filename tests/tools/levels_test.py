@@ -82,13 +82,31 @@ class Levels(unittest.TestCase):
         what = ("--sound", "--panel", "exposed", "--sensor", "sensor_liner.y", "-o", "l.png")
         fields = [f"{rpm:.0f}.field.h5" for rpm, _, _ in LINES]
         self.assertEqual(self.run_command("levels", "sweep.h5", *what), self.run_command("levels", *fields, *what))
-        self.assertEqual(self.run_command("levels", "sweep.h5", "--sound", "--where", "engine.speed_rpm=1200", code=2),
-                         "levels: found 1 speeds with sound/power, expected at least two")
+        one = self.run_command("levels", "sweep.h5", "--sound", "--where", "engine.speed_rpm=1200", "-o", "l.png")
+        self.assertEqual(self.tables(one)["sound power, re 1 pW"], [[1200, 70, 65]])
+        self.assertEqual(self.run_command("levels", "sweep.h5", "--sound", "--window", "mean", code=2),
+                         "sweep.h5: found a sweep file with --window mean, expected fields: a sweep file has their cycles alone")
+
+    def test_a_window_has_the_level_of_its_mean_and_the_standard_error(self):
+        with h5py.File(self.folder / "1200.field.h5", "a") as field:
+            field.copy(AT, "analysis/mean")
+            mean = field["analysis/mean"]
+            mean["sound"].attrs.update({"power_dba": 66.1, "power_standard_error_dba": 0.27})
+            lines = mean["sensors/sensor_liner/spectrum"]
+            lines["acceleration_power"] = (lines["acceleration_re"][()] ** 2 + lines["acceleration_im"][()] ** 2) / 2.0
+            del lines["acceleration_re"], lines["acceleration_im"]
+        what = ("--sound", "--sensor", "sensor_liner.y", "-o", "l.png")
+        cycle, said = (self.run_command("levels", "1200.field.h5", *what, *window) for window in ((), ("--window", "mean")))
+        self.assertIn("    1200     70.0     66.1 +- 0.27\n", said)
+        self.assertNotIn("+-", cycle)
+        self.assertEqual(said.splitlines()[-2], cycle.splitlines()[-2])  # of the sensor, by its mean squares
+        self.assertEqual(self.run_command("levels", "1200.field.h5", "--sound", "--window", "men", code=2),
+                         "1200.field.h5: analysis: found cycle, ftdc, mean, expected men")
+        self.run_command("orders", "1200.field.h5", "--sound", "--window", "mean", "-o", "o.png")
 
     def test_what_cannot_be_drawn_is_refused(self):
         for arguments, message in (
                 (["1200.field.h5"], "levels: give --sound, --panel or --sensor"),
-                (["1200.field.h5", "--sound"], "levels: found 1 speeds with sound/power, expected at least two"),
                 (["1200.field.h5", "2400.field.h5", "--panel", "lid"], "1200.field.h5: analysis/cycle/panels: found exposed, skin, expected lid")):
             self.assertEqual(self.run_command("levels", *arguments, code=2), message)
         with h5py.File(self.folder / "2400.field.h5", "r+") as field:

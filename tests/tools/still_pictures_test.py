@@ -11,7 +11,7 @@ import numpy as np
 
 import synthetic
 import synthetic_page
-from clatter import artefact, fields
+from clatter import artefact, fields, histories
 from clatter_tools import findings, orders, report, weighting
 from clatter_tools.plots import accelerations, campbell, film, over_cycle, piston, radiation, raster, shape
 
@@ -153,6 +153,10 @@ class RunPictures(unittest.TestCase):
         rows, angles = film.nearest_frames(recorded, (44.0, -20.0, 0.0, 1.0))
         self.assertEqual(angles, [-30.0, 0.0, 30.0])
         self.assertEqual(list(recorded[rows]), [690.0, 720.0, 750.0])
+        # Fields are taken at the step after their instant: one of the cycle before is not one of the last cycle.
+        recorded = np.concatenate([np.arange(-1080.0, -360.0, 10.0) + 0.3, np.arange(-360.0, 360.0, 10.0) + 0.1])
+        self.assertEqual(histories.last_cycle_of_fields(recorded), slice(72, None))
+        self.assertEqual(histories.last_cycle_of_fields(recorded[72:]), slice(0, None))
 
     def test_film_maps_have_one_scale_per_quantity_and_no_row_for_what_is_zero(self):
         path = self.folder / "wet.run.h5"

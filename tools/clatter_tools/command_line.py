@@ -60,7 +60,7 @@ def parser():
     slaps.add_arguments(one)
     one = commands.add_parser("study", help="what accuracy costs: errors and seconds over settings of a pipeline")
     study.add_arguments(one)
-    one = commands.add_parser("levels", help="draw overall levels over the speed of several runs")
+    one = commands.add_parser("levels", help="draw overall levels of a run, or over the speed of several")
     levels.add_arguments(one)
     one = commands.add_parser("export", help="write a field file's surface motion for acoustic programs")
     export_command.add_arguments(one)

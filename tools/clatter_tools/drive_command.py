@@ -19,13 +19,14 @@ def add_arguments(commands):
     one.add_argument("-o", "--output", metavar="folder", help="folder of the pictures; default: the run's name")
     one.add_argument("--format", choices=("svg", "png"), default="svg", help="of the pictures; default svg")
     one.add_argument("--frames", type=int, default=0, metavar="N", help="also write N frames of one cycle as PNG, for a video")
-    one = commands.add_parser("orders", help="draw Campbell diagram and order cuts of runs at several speeds")
+    one = commands.add_parser("orders", help="draw the orders of a run, or Campbell diagram and order cuts of runs at several speeds")
     one.add_argument("files", nargs="+", metavar="file.h5", help="runs, fields, or what `clatter collect` has made of them")
     what = one.add_mutually_exclusive_group(required=True)
     what.add_argument("--history", metavar="NAME", help="of run files")
     what.add_argument("--sensor", metavar="LABEL", help="of field files: a channel's acceleration, as sensor_arm.x")
     what.add_argument("--panel", metavar="NAME", help="of field files: a panel's equivalent radiated power, as exposed")
     what.add_argument("--sound", action="store_true", help="of field files: the sound power")
+    one.add_argument("--window", metavar="NAME", help="of field files: a window instead of the cycle, as a mean over several")
     one.add_argument("--where", action="append", default=[], metavar="KEY=VALUE", help="of the runs of a sweep those with this value of a key")
     one.add_argument("--orders", default=",".join(f"{order:g}" for order in ORDERS), metavar="LIST",
                      help="orders of the cuts, multiples of 0.5; default %(default)s")
@@ -85,13 +86,15 @@ def spectra_of(path, options):
     """Orders of what the options name, of one run or of all of a sweep."""
     with open_artefact(path) as file:
         if text(file.attrs.get("schema", "")) == schema_of("sweep"):
+            orders.refuse_window(file, options.window)
             return orders.of_sweep(file, quantity(options)[0], options.where)
     with open_artefact(path, "run" if options.history else "field") as file:
         if options.history:
             return [orders.of_run(file, options.history, options.cycles)]
         if options.sound:
-            return [orders.of_sound(file)]
-        return [orders.of_field(file, options.sensor) if options.sensor else orders.of_panel(file, options.panel)]
+            return [orders.of_sound(file, options.window)]
+        return [orders.of_field(file, options.sensor, options.window) if options.sensor
+                else orders.of_panel(file, options.panel, options.window)]
 
 
 def write_orders(options):
@@ -123,5 +126,5 @@ def print_levels(spectra, cuts):
     largest = max(orders.fluctuation(rms) for _, _, rms, _ in spectra)
     for cut in cuts:
         values = [orders.of_order(order, rms, cut) for _, order, rms, _ in spectra]
-        if np.max(values) > FAINT * largest:  # false where the samples do not resolve the order
+        if len(spectra) > 1 and np.max(values) > FAINT * largest:  # false where the samples do not resolve the order
             print(f"order {cut:g} is largest at {orders.peak_of([one[0] for one in spectra], values)[0]:.0f} rpm")

@@ -55,39 +55,58 @@ def of_run(run, name, cycles=None):
     return rpm, *half_orders(angle, values, count), text(run[f"history/{name}"].attrs.get("unit", ""))
 
 
-def of_field(field, label):
-    """The same of the acceleration of a sensor's channel in a field file, by its label."""
-    at = "analysis/cycle"
+def in_half_orders(order, power):
+    """(orders 0, 0.5, 1, ..., RMS in the band of half an order around each) of mean squares by line."""
+    band = np.floor(2.0 * order + 0.5).astype(int)
+    rms = np.sqrt(np.bincount(band, power))
+    return 0.5 * np.arange(len(rms)), rms
+
+
+def piece(field, window):
+    """Path of a window in a field file, of the cycle without one."""
+    found = list(field.get("analysis", {}))
+    if window is not None and window not in found:
+        raise BadArtefact(f"{field.filename}: analysis: found {', '.join(found) or 'none'}, expected {window}")
+    return f"analysis/{window or 'cycle'}"
+
+
+def refuse_window(sweep, window):
+    """Sweep files have the cycles of their fields alone."""
+    if window is not None:
+        raise BadArtefact(f"{sweep.filename}: found a sweep file with --window {window}, expected fields: a sweep file has their cycles alone")
+
+
+def of_field(field, label, window=None):
+    """The same of the acceleration of a sensor's channel in a field file, by its label; over the cycle, or a window."""
+    at = piece(field, window)
     sensor, channel = labelled(field, at, label)
-    lines = [dataset(field, f"{sensor}/spectrum/acceleration_{part}")[:, channel] for part in ("re", "im")]
-    order = dataset(field, f"{at}/order")
-    rms = np.zeros(int(round(2 * order[-1])) + 1)
-    rms[np.rint(2 * order).astype(int)] = np.hypot(*lines) / np.sqrt(2.0)  # amplitudes are peaks
-    return float(field[at].attrs["speed_rpm"]), 0.5 * np.arange(len(rms)), rms, "m/s2"
+    if f"{sensor}/spectrum/acceleration_power" in field:  # a mean over segments
+        power = dataset(field, f"{sensor}/spectrum/acceleration_power")[:, channel]
+    else:
+        power = sum(dataset(field, f"{sensor}/spectrum/acceleration_{part}")[:, channel] ** 2 for part in ("re", "im")) / 2.0  # amplitudes are peaks
+    return float(field[at].attrs["speed_rpm"]), *in_half_orders(dataset(field, f"{at}/order"), power), "m/s2"
 
 
-def of_power(field, name, power):
+def of_power(field, at, name, power):
     """The same of a power per line, whose root stands for the RMS."""
-    at = "analysis/cycle"
-    order = dataset(field, f"{at}/order")
-    rms = np.zeros(int(round(2 * order[-1])) + 1)
-    rms[np.rint(2 * order).astype(int)] = np.sqrt(dataset(field, f"{at}/{name}/{power}"))
-    return float(field[at].attrs["speed_rpm"]), 0.5 * np.arange(len(rms)), rms, "W^0.5"
+    lines = dataset(field, f"{at}/{name}/{power}")
+    return float(field[at].attrs["speed_rpm"]), *in_half_orders(dataset(field, f"{at}/order"), lines), "W^0.5"
 
 
-def of_panel(field, panel):
+def of_panel(field, panel, window=None):
     """The same of the equivalent radiated power of a panel."""
-    at = "analysis/cycle"
+    at = piece(field, window)
     if f"{at}/panels/{panel}" not in field:
         raise BadArtefact(f"{field.filename}: {at}/panels: found {', '.join(field[f'{at}/panels']) if at in field else 'none'}, expected {panel}")
-    return of_power(field, f"panels/{panel}", "erp")
+    return of_power(field, at, f"panels/{panel}", "erp")
 
 
-def of_sound(field):
+def of_sound(field, window=None):
     """The same of the sound power."""
-    if "analysis/cycle/sound" not in field:
-        raise BadArtefact(f"{field.filename}: analysis/cycle/sound: found nothing, expected a field whose field.toml names a sound file")
-    return of_power(field, "sound", "power")
+    at = piece(field, window)
+    if f"{at}/sound" not in field:
+        raise BadArtefact(f"{field.filename}: {at}/sound: found nothing, expected a field whose field.toml names a sound file")
+    return of_power(field, at, "sound", "power")
 
 
 def rows_where(sweep, conditions):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Campbell diagram and order cuts over the speed of several runs, as in figure 6 of the paper."""
+"""Campbell diagram and order cuts over the speed of several runs, as in figure 6 of the paper; the orders of one run."""
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 
@@ -12,13 +12,14 @@ SHOWN_RATIO = 1e3
 
 
 def picture(spectra, cuts, title, to_hz=None):
-    """`spectra`: (speed [1/min], orders, RMS, unit) of at least two runs of different speeds; `cuts`: orders; `to_hz`: top of the
-    diagram, without it somewhat above the highest of them."""
+    """`spectra`: (speed [1/min], orders, RMS, unit) of runs of different speeds; `cuts`: orders; `to_hz`: top of the diagram,
+    without it somewhat above the highest of them."""
     spectra = sorted(spectra, key=lambda one: one[0])
     speeds, unit = np.array([one[0] for one in spectra]), spectra[0][3]
-    if len(speeds) < 2 or np.diff(speeds).min() < 1.0:
-        raise BadArtefact(f"orders: found runs at {', '.join(f'{speed:.0f}' for speed in speeds)} rpm, expected at least two of "
-                          "different speeds")
+    if len(speeds) == 1:
+        return one_run(spectra[0], cuts, title, to_hz or 1.15 * max(cuts) * speeds[0] / 60.0)
+    if np.diff(speeds).min() < 1.0:
+        raise BadArtefact(f"orders: found runs at {', '.join(f'{speed:.0f}' for speed in speeds)} rpm, expected different speeds")
     if any(one[3] != unit for one in spectra):
         raise BadArtefact(f"orders: found units {', '.join(sorted({one[3] for one in spectra}))}, expected one")
     figure, axes = style.figure(2, height=3.6, gridspec_kw={"height_ratios": [1.25, 1]})
@@ -31,6 +32,26 @@ def picture(spectra, cuts, title, to_hz=None):
     for axis in axes[:, 0]:
         axis.set_xlim(limits)
     style.headline(figure, title)
+    return figure
+
+
+def one_run(spectrum, cuts, title, to_hz):
+    """Levels of the half orders of a single run up to a frequency."""
+    speed, order, rms, unit = spectrum
+    figure, axes = style.figure(1, height=3.6)
+    axis = axes[0, 0]
+    shown = (order > 0.0) & (order * speed / 60.0 <= to_hz)
+    if not shown.any():
+        raise BadArtefact(f"orders: found no half order up to {to_hz:g} Hz at {speed:.0f} rpm, expected a higher --to-hz")
+    values = orders.level(rms[shown], unit)
+    low = values.max() - SHOWN_DB if unit in orders.REFERENCE else 0.0
+    values = np.maximum(values, low)
+    axis.bar(order[shown], values - low, bottom=low, width=0.4, color=style.COLOURS[0])
+    for cut in cuts:
+        if cut * speed / 60.0 <= to_hz:
+            axis.axvline(cut, color="#777777", linewidth=0.7, linestyle=(0, (6, 4)), zorder=0)
+    axis.set(xlabel=f"order, multiple of {speed / 60.0:.4g} Hz", ylabel=f"half order, {orders.level_name(unit)}")
+    style.headline(figure, f"{title}, {speed:.0f} rpm")
     return figure
 
 

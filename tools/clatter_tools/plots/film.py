@@ -4,7 +4,7 @@ import numpy as np
 
 from clatter.artefact import BadArtefact, dataset
 from clatter.films import contacts
-from clatter.histories import angle_zero, centred, last_cycle
+from clatter.histories import angle_zero, centred, last_cycle_of_fields
 from . import style
 
 AT_DEG = (-20.0, 0.0, 10.0, 20.0, 90.0)
@@ -46,7 +46,7 @@ def draw(files, at_deg=AT_DEG):
 
 def nearest_frames(recorded, wanted):
     """(rows of the last cycle, ascending; their crank angles from firing TDC) of the maps nearest to the wanted angles."""
-    window = np.arange(len(recorded))[last_cycle(recorded)]
+    window = np.arange(len(recorded))[last_cycle_of_fields(recorded)]
     degrees, order = centred(recorded[window])
     chosen = sorted({int(np.argmin(np.abs(degrees - angle))) for angle in wanted})
     return [int(window[order[k]]) for k in chosen], [round(float(degrees[k]), 3) for k in chosen]

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Overall levels over the crank speed, plain and A-weighted: powers above, accelerations below."""
+import numpy as np
+
 from . import style
 
 
@@ -10,9 +12,9 @@ def picture(curves):
     colour = 0
     for axis, group in zip(axes[:, 0], groups):
         for curve in group:
-            speeds, plain, weighted = curve.sorted()
+            speeds, plain, weighted, error = curve.sorted()
             look = {"color": style.COLOURS[colour % len(style.COLOURS)], "marker": "o", "markersize": 3}
-            axis.plot(speeds, weighted, label=f"{curve.label()}, dB(A)", **look)
+            axis.errorbar(speeds, weighted, error if np.isfinite(error).any() else None, capsize=3, label=f"{curve.label()}, dB(A)", **look)
             axis.plot(speeds, plain, linestyle="--", linewidth=1.0, label=f"{curve.label()}, dB", **look)
             colour += 1
         axis.set_ylabel(f"level [dB, dB(A) re {group[0].reference}]")

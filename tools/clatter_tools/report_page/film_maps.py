@@ -4,7 +4,7 @@ import numpy as np
 
 from clatter.artefact import dataset
 from clatter.films import contacts
-from clatter.histories import centred
+from clatter.histories import centred, last_cycle_of_fields
 
 # Dataset, name, factor, unit, colours.
 QUANTITIES = [
@@ -27,9 +27,9 @@ def collect(folder, pack):
 
 def contact(one, group, cylinder, pack):
     angle = dataset(one.run, f"{one.run['film'].name}/crank_angle_deg")
-    last = angle > angle[-1] - 720.0 - 1e-6
+    last = np.arange(len(angle))[last_cycle_of_fields(angle)]
     degrees, order = centred(angle[last])
-    pads = [pad(group[name], name, np.flatnonzero(last)[order], pack) for name in sorted(group, reverse=True)
+    pads = [pad(group[name], name, last[order], pack) for name in sorted(group, reverse=True)
             if "axial" in group[name]]
     return {"run": one.number, "cylinder": cylinder, "angle": pack.add("film", degrees), "pads": pads}
 
