@@ -363,7 +363,7 @@ std::string means_text(const Summary& summary) {
     const auto add = [&](const std::string& what, double power, const LevelError& error) {
       text += fmt::format("'{}': {} {:.1f} dB(A){} re 1 pW ({} {})\n", piece.name, what,
                           level_db(power, summary.options.references.power),
-                          error.dba ? fmt::format(" +- {:.2g} dB", *error.dba) : "",
+                          error.dba ? fmt::format(" +- {:.2f} dB", *error.dba) : "",
                           piece.segments(), piece.is_mean_of_cycles() ? "cycles" : "segments");
     };
     const PanelResult& panel = radiating_panel(analysis.panels);

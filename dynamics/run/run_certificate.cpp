@@ -34,7 +34,7 @@ const std::vector<CertificateField<RunCertificate>>& RunCertificate::fields() {
        "the lateral position of each named cylinder's piston"},
       {"periodicity_tilt_<cylinder>", &C::tilt_of, "rad", "the same of its tilt"},
       {"periodicity_<body>", &C::velocity, "", "relative difference of the body's velocities",
-       good_up_to(0.1, "cycles differ: more cycles, or a mean over several")}};
+       good_up_to(0.1, "cycles differ: more cycles, or a mean over several by record_cycles")}};
   return list;
 }
 

@@ -54,8 +54,8 @@ std::string cycle_text(const Scene& scene, const RunResult& result, Span span, d
 std::string unsettled_text(const Scene& scene, double change) {
   return fmt::format(
       "not settled after {} cycles: the velocities of a body differ by {:.2g} of them from the "
-      "cycle before, more than time.settle_to = {:g}; more cycles or more damping may help, dry "
-      "contact may never repeat",
+      "cycle before, more than time.settle_to = {:g}; more cycles or more damping may help; dry "
+      "contact may never repeat, its mean over cycles is by record_cycles instead of settle_to",
       scene.time.cycles, change, scene.time.settle);
 }
 

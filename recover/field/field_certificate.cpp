@@ -19,7 +19,7 @@ const std::vector<CertificateField<FieldCertificate>>& FieldCertificate::fields(
            "much of the motion is above the last line: a reduced model to a higher frequency")},
       {"cycle_to_cycle_velocity_difference", &C::cycle_to_cycle_velocity_difference, "",
        "of the last two cycles, relative; absent without two",
-       good_up_to(0.1, "levels of another cycle differ: more cycles, or averages")},
+       good_up_to(0.1, "levels of another cycle differ: more cycles, or a window with cycles")},
       {"cycle_end_velocity_jump", &C::cycle_end_velocity_jump, "",
        "RMS of v_n at the end less v_n at the beginning of the cycle, over the RMS of v_n in the "
        "cycle",

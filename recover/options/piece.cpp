@@ -276,8 +276,8 @@ Piece last_cycles(const RunClock& clock, const WindowRule& rule, const std::stri
   const int cycles = rule.cycles.value(), found = complete_cycles(clock);
   if (cycles > found)
     throw InputError(fmt::format(
-        "{}: window '{}': cycles: found {}, expected at most the {} that the run has recorded: "
-        "give it record_cycles = {} in [time] of its run.toml",
+        "{}: window '{}': cycles: found {}, expected at most {}, which the run has recorded: "
+        "set record_cycles = {} in [time] of its run.toml",
         origin, rule.name, cycles, found, cycles));
   Piece piece = end_of_run(clock, rule.name, cycles, rule.domain, origin);
   piece.taper = rule.taper;

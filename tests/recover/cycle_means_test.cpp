@@ -98,7 +98,7 @@ TEST_F(CycleMeans, LevelsAreThoseOfTheMeanPowerWithItsStandardError) {
   EXPECT_FALSE(file.has(at + "/microphones/above/pressure_re"));
   const std::string text = summary_text(summary);
   const std::string line =
-      fmt::format("'w': sound power {:.1f} dB(A) +- {:.2g} dB re 1 pW (4 cycles)\n",
+      fmt::format("'w': sound power {:.1f} dB(A) +- {:.2f} dB re 1 pW (4 cycles)\n",
                   10.0 * std::log10(sound.total_a / 1e-12), error_db(P));
   EXPECT_NE(text.find(line), std::string::npos) << text;
   EXPECT_NE(text.find("'w': ERP of exposed"), std::string::npos);
@@ -160,8 +160,8 @@ TEST_F(CycleMeans, AnglesHaveTheSameMeans) {
 TEST_F(CycleMeans, MoreThanWereRecordedAreRefusedWithTheKeyOfTheRun) {
   EXPECT_EQ(refusal("cycles = 6\n"),
             (folder_ / "run.h5").string() +
-                ": window 'w': cycles: found 6, expected at most the 5 that the run has recorded: "
-                "give it record_cycles = 6 in [time] of its run.toml");
+                ": window 'w': cycles: found 6, expected at most 5, which the run has recorded: "
+                "set record_cycles = 6 in [time] of its run.toml");
   test::expect_parts(refusal("cycles = 5\ndomain = 'angle'\n"),
                      {"expected 5 cycles of 3600", "time.record_cycles = 6"});
   test::expect_parts(refusal("cycles = 2.5\n"), {"cycles: found 2.5, expected a whole number"});

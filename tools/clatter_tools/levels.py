@@ -112,5 +112,5 @@ def write_levels(options):
         print(f"{curve.label()}, re {curve.reference}".replace("²", "2"))
         print(f"{'rpm':>8} {'dB':>8} {'dB(A)':>8}")
         for speed, plain, weighted, error in zip(*curve.sorted()):
-            print(f"{speed:8.0f} {plain:8.1f} {weighted:8.1f}{'' if np.isnan(error) else f' +- {error:.2g}'}")
+            print(f"{speed:8.0f} {plain:8.1f} {weighted:8.1f}{'' if np.isnan(error) else f' +- {error:.2f}'}")
     print(options.output)
