@@ -114,6 +114,12 @@ class Field(Artefact):
             return fields.radiated(self.file, self._at).dba
         return float(self.file[f"{self._at}/{self._panel(panel)}"].attrs["erp_dba"])
 
+    def level_error_dba(self, panel=None) -> float:
+        """Standard error [dB] of `level_dba` of a mean over several segments, as cycles; nan of one segment."""
+        power = fields.radiated(self.file, self._at).power if panel is None else f"{self._at}/{self._panel(panel)}/erp"
+        group, _, name = power.rpartition("/")
+        return float(self.file[group].attrs.get(f"{name}_standard_error_dba", np.nan))
+
     def third_octaves(self, panel=None) -> tuple:
         """(mid-bands, b [Hz]; A-weighted levels, b [dB re 1 pW]) of the same power."""
         path = fields.radiated(self.file, self._at).bands if panel is None else f"{self._at}/{self._panel(panel)}/third_octave/erp_dba"
@@ -126,6 +132,7 @@ class Field(Artefact):
         return [text(name) for name in self.file.get(f"{self._at}/sound/microphones", ())]
 
     def pressure(self, microphone) -> np.ndarray:
-        """Pressure at a microphone in the lines up to `sound_to_hz`, complex peak amplitudes [Pa]."""
+        """Pressure at a microphone in the lines up to `sound_to_hz`, complex peak amplitudes [Pa]. Refused where several segments were
+        averaged."""
         where = f"sound/microphones/{microphone}/pressure"
         return self._read(f"{where}_re") + 1j * self._read(f"{where}_im")

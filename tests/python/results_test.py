@@ -128,6 +128,7 @@ class Results(stages.PipelineTest):
             self.assertAlmostEqual(field.erp("top")[inside].sum(), at.attrs["erp_w"], delta=1e-3 * at.attrs["erp_w"])
             self.assertEqual(field.level_dba("top"), at.attrs["erp_dba"])
         self.assertEqual(field.level_dba(), field.level_dba("exposed"))
+        self.assertTrue(np.isnan(field.level_error_dba("top")))  # of one segment
         for panel, path in ((None, "exposed"), ("top", "top")):
             mid, levels = field.third_octaves(panel)
             with h5py.File(self.folder / "step.field.h5") as file:
@@ -135,6 +136,13 @@ class Results(stages.PipelineTest):
                 np.testing.assert_array_equal(mid, file["analysis/swing/third_octave/mid_hz"])
         with self.assertRaisesRegex(clatter.Refused, "sound/power: missing"):
             field.sound_power
+
+    def test_the_standard_error_of_a_mean_is_that_of_its_power(self):
+        with h5py.File(self.folder / "step.field.h5", "r+") as file:
+            for panel, error in (("top", 0.3), ("exposed", 0.4)):
+                file[f"analysis/swing/panels/{panel}"].attrs["erp_standard_error_dba"] = error
+        field = self.open("step.field.h5")
+        self.assertEqual((field.level_error_dba("top"), field.level_error_dba()), (0.3, 0.4))
 
     def test_a_sensor_of_a_field_moves_as_in_the_run(self):
         field, run = self.open("step.field.h5"), self.open("step.run.h5")

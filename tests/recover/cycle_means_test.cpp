@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "recover/sound/wav.hpp"
 #include "sound_run.hpp"
 #include "tests/refusal.hpp"
 
@@ -155,6 +156,21 @@ TEST_F(CycleMeans, AnglesHaveTheSameMeans) {
   EXPECT_NEAR(summary.sounds.at(1).total, mean(powers(3, summary.sounds.at(0).total)),
               0.1 * summary.sounds.at(0).total);
   EXPECT_GT(summary.sounds.at(1).error.db.value(), 0.5);
+}
+
+TEST_F(CycleMeans, WithoutTheCycleTheyAreCertifiedByTheirLastOneAndNotHeard) {
+  const FieldCertificate whole = of("cycles = 2\n").certificate;
+  const Summary means = recovered(
+      "sound = 'part.sound.h5'\ncycle = false\n[spectrum]\nto_hz = 1500\n"
+      "[[window]]\nname = 'w'\ncycles = 2\n");
+  ASSERT_EQ(means.analyses.size(), 1u);
+  EXPECT_GT(whole.cycle_to_cycle_velocity_difference.value(), 0.1);
+  EXPECT_EQ(means.certificate.cycle_to_cycle_velocity_difference,
+            whole.cycle_to_cycle_velocity_difference);
+  EXPECT_EQ(means.certificate.cycle_end_velocity_jump, whole.cycle_end_velocity_jump);
+  test::expect_parts(
+      test::refusal_of([&] { write_wav(folder_ / "field.h5", "above", {}, folder_ / "a.wav"); }),
+      {"expected a field with a cycle or a window in one segment"});
 }
 
 TEST_F(CycleMeans, MoreThanWereRecordedAreRefusedWithTheKeyOfTheRun) {
