@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -259,6 +260,15 @@ TEST_F(CrankScenes, AResumedRunHasTheFilmsAndTheLoadOfTheFirst) {
   const auto b =
       testing::finished_file(described, bodies, again).read_doubles("history/crank_deviation");
   EXPECT_EQ(a, b);
+  // Cycles that are recorded together move the same.
+  const Scene both = scene("[time]\nrecord_cycles = 2\n" + crank);
+  control = {};
+  control.output = folder_ / "both.run.h5";
+  RunResult result = simulate(both, bodies, control);
+  const auto c =
+      testing::finished_file(both, bodies, result).read_doubles("history/crank_deviation");
+  ASSERT_GT(c.size(), a.size());
+  EXPECT_TRUE(std::equal(a.begin(), a.end(), c.end() - std::ssize(a)));
 }
 
 }  // namespace

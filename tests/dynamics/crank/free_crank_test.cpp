@@ -300,17 +300,21 @@ TEST_F(FreeCranks, HaveTangentsAndPowersAtTheirOwnSpeed) {
 
 TEST_F(FreeCranks, GoOnFromACheckpointToTheBit) {
   testing::write_rom(folder_ / "rod.rom.h5", testing::rod_model(testing::rod_truss(2e9, 0.3)));
-  const Scene described =
-      scene(std::string(
-                "[time]\nmethod = \"tr-bdf2\"\n[accuracy]\ntolerance = 1e-2\n"
-                "[contact]\nviscosity_pa_s = 0.02\noil_thickness_um = 30\n[contact.liner_oil]\n") +
-            kRing +
-            "groove_coefficient = 0.05\nmass_g = 30\n[[contact.bore_shape]]\norder = 0\n"
-            "height_mm = [100, 330]\namplitude_um = [4, 4]\nscale = \"gas\"\nat_bar = 40\n"
-            "[rod]\nmodel = \"elastic\"\nrom = \"rod.rom.h5\"\n"
-            "[crank]\nspeed = \"free\"\npolar_kg_m2 = 0.5\n" +
-            kUnevenOrder);
+  const auto recording = [&](int cycles) {
+    return scene(fmt::format("[time]\nrecord_cycles = {}\n", cycles) +
+                 "method = \"tr-bdf2\"\n[accuracy]\ntolerance = 1e-2\n"
+                 "[contact]\nviscosity_pa_s = 0.02\noil_thickness_um = 30\n[contact.liner_oil]\n" +
+                 kRing +
+                 "groove_coefficient = 0.05\nmass_g = 30\n[[contact.bore_shape]]\norder = 0\n"
+                 "height_mm = [100, 330]\namplitude_um = [4, 4]\nscale = \"gas\"\nat_bar = 40\n"
+                 "[rod]\nmodel = \"elastic\"\nrom = \"rod.rom.h5\"\n"
+                 "[crank]\nspeed = \"free\"\npolar_kg_m2 = 0.5\n" +
+                 kUnevenOrder);
+  };
+  const Scene described = recording(1);
   const LoadedBodies bodies = load_bodies(described);
+  constexpr const char* kHistories[] = {"crank_deviation", "piston_tilt",       "side_force",
+                                        "oil_in_gap",      "ring_groove_force", "crank_speed"};
   const auto run = [&](const char* name, const std::optional<Checkpoint>& from) {
     RunControl control;
     control.output = folder_ / (std::string(name) + ".run.h5");
@@ -322,14 +326,26 @@ TEST_F(FreeCranks, GoOnFromACheckpointToTheBit) {
     const auto point = read_checkpoint(checkpoint_path(control.output), fingerprint(described));
     const H5File file = testing::finished_file(described, bodies, result);
     std::vector<std::vector<double>> found;
-    for (const char* history : {"crank_deviation", "piston_tilt", "side_force", "oil_in_gap",
-                                "ring_groove_force", "crank_speed"})
+    for (const char* history : kHistories)
       found.push_back(file.read_doubles(std::string("history/") + history));
     return std::pair{found, point};
   };
   const auto [whole, point] = run("whole", std::nullopt);
   ASSERT_TRUE(point.has_value());
   EXPECT_EQ(run("again", point).first, whole);
+
+  // Cycles that are recorded together move the same.
+  const Scene both = recording(2);
+  RunControl control;
+  control.output = folder_ / "both.run.h5";
+  RunResult result = simulate(both, bodies, control);
+  const H5File file = testing::finished_file(both, bodies, result);
+  for (size_t k = 0; k < std::size(kHistories); ++k) {
+    const std::vector<double> values = file.read_doubles(std::string("history/") + kHistories[k]);
+    ASSERT_GT(values.size(), whole[k].size());
+    EXPECT_TRUE(std::equal(whole[k].begin(), whole[k].end(), values.end() - std::ssize(whole[k])))
+        << kHistories[k];
+  }
 }
 
 /// A torque over one cycle of 720 deg with a spike.
