@@ -96,6 +96,7 @@ void Integrator::start(double time, const VectorXd& eta, const VectorXd& v) {
 void Integrator::resume(const StageState& state, int rung) {
   now_ = before_ = state;
   jumped_ = false;
+  close_events_.clear();
   if (events_.any()) events_.start(now_);
   rung_ = rung;
   forget_history();
