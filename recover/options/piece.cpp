@@ -94,8 +94,8 @@ Piece cycles_by_angle(const RunClock& clock, const std::string& name, int cycles
     throw InputError(fmt::format(
         "{}: output/crank_angle_deg: found {:.6g} degrees without the {} samples at each end, "
         "expected {} of {:g}: the speed varies, a cycle is no integer number of steps, or '{}' is "
-        "over the angle, and values at uniform angles need samples around them; record a cycle "
-        "more, time.record_cycles = {} in the run.toml",
+        "over the angle, and values at uniform angles need samples around them: a longer run, with "
+        "an engine time.record_cycles = {}",
         origin, range.to - range.from, kHalfWidth,
         cycles == 1 ? "a complete cycle" : fmt::format("{} cycles", cycles), length, name,
         cycles + 1));
@@ -277,7 +277,7 @@ Piece last_cycles(const RunClock& clock, const WindowRule& rule, const std::stri
   if (cycles > found)
     throw InputError(fmt::format(
         "{}: window '{}': cycles: found {}, expected at most {}, which the run has recorded: "
-        "set record_cycles = {} in [time] of its run.toml",
+        "set record_cycles = {} in [time] of its run.toml, or a later end_s",
         origin, rule.name, cycles, found, cycles));
   Piece piece = end_of_run(clock, rule.name, cycles, rule.domain, origin);
   piece.taper = rule.taper;

@@ -26,45 +26,61 @@ double error_db(const std::vector<double>& P) {
   return 4.342944819032518 * std::sqrt(squares / (n - 1.0) / n) / mean;
 }
 
-/// Five cycles of the sphere's tone, whose amplitude is another one in each.
-class CycleMeans : public SoundRun {
+double mean(const std::vector<double>& P) {
+  return std::accumulate(P.begin(), P.end(), 0.0) / static_cast<double>(P.size());
+}
+
+constexpr std::array<double, 5> kSize{7.0, 1.0, 1.3, 0.7, 1.1};
+
+/// Powers of the last cycles of five that have these sizes, for one of `last` in the last one.
+std::vector<double> powers(size_t cycles, double last) {
+  std::vector<double> P;
+  for (size_t c = kSize.size() - cycles; c < kSize.size(); ++c)
+    P.push_back(last * std::pow(kSize[c] / kSize.back(), 2));
+  return P;
+}
+
+/// Writes five cycles of a tone of the sphere.
+void write_five(const std::filesystem::path& folder, const Eigen::Vector2d& motion, double hz) {
+  const RunPlan plan{.cycles = 5};
+  const double w = 2 * kPi * hz;
+  write_run(folder, sphere_model(), plan, [&](double t) {
+    const auto cycle = static_cast<size_t>(std::floor(t / plan.cycle_s() + 1e-6));
+    const Eigen::Vector2d q = kSize.at(std::min<size_t>(cycle, 4)) * motion;
+    return Motion{q * std::cos(w * t), -w * q * std::sin(w * t), -w * w * q * std::cos(w * t)};
+  });
+}
+
+class CycleMeans : public SphereRun {
  protected:
   void SetUp() override {
-    SoundRun::SetUp();
-    const double w = 2 * kPi * kLine;
-    write_inputs(
-        [this, w](double t) {
-          const auto cycle = static_cast<size_t>(std::floor(t / plan_.cycle_s() + 1e-6));
-          const Eigen::Vector2d q = kSize.at(std::min<size_t>(cycle, 4)) * kMotion;
-          return Motion{q * std::cos(w * t), -w * q * std::sin(w * t),
-                        -w * w * q * std::cos(w * t)};
-        },
-        plan_);
+    SphereRun::SetUp();
+    write_five(folder_, kMotion, kLine);
   }
   Summary of(const std::string& window) {
-    return recovered("sound = 'part.sound.h5'\n[spectrum]\nto_hz = 1500\n[[window]]\nname = 'w'\n" +
-                     window);
+    return recovered("[spectrum]\nto_hz = 1500\n[[window]]\nname = 'w'\n" + window);
   }
   std::string refusal(const std::string& window) {
     return test::refusal_of([&] { of(window); });
   }
-  /// Powers of the last cycles, for one of `last` in the last one.
-  std::vector<double> powers(size_t cycles, double last) const {
-    std::vector<double> P;
-    for (size_t c = kSize.size() - cycles; c < kSize.size(); ++c)
-      P.push_back(last * std::pow(kSize[c] / kSize.back(), 2));
-    return P;
-  }
-  static double mean(const std::vector<double>& P) {
-    return std::accumulate(P.begin(), P.end(), 0.0) / static_cast<double>(P.size());
-  }
-
-  static constexpr std::array<double, 5> kSize{7.0, 1.0, 1.3, 0.7, 1.1};
-  const RunPlan plan_{.cycles = 5};
 };
 
-TEST_F(CycleMeans, LevelsAreThoseOfTheMeanPowerWithItsStandardError) {
-  const Summary summary = of("cycles = 4\n");
+/// With the sphere's sound.
+class CycleSounds : public SoundRun {
+ protected:
+  void SetUp() override {
+    SoundRun::SetUp();
+    write_five(folder_, kMotion, kLine);
+    write_sound_file();
+  }
+  Summary of(const std::string& keys) {
+    return recovered("sound = 'part.sound.h5'\n" + keys +
+                     "[spectrum]\nto_hz = 1500\n[[window]]\nname = 'w'\ncycles = 4\n");
+  }
+};
+
+TEST_F(CycleSounds, HaveTheLevelOfTheMeanPowerWithItsStandardError) {
+  const Summary summary = of("");
   const Analysis &cycle = summary.analyses.at(0), &window = summary.analyses.at(1);
   EXPECT_EQ(window.piece.segments(), 4);
   EXPECT_TRUE(window.piece.is_mean_of_cycles());
@@ -103,6 +119,21 @@ TEST_F(CycleMeans, LevelsAreThoseOfTheMeanPowerWithItsStandardError) {
                   10.0 * std::log10(sound.total_a / 1e-12), error_db(P));
   EXPECT_NE(text.find(line), std::string::npos) << text;
   EXPECT_NE(text.find("'w': ERP of exposed"), std::string::npos);
+
+  // They have no phases to be heard by.
+  of("cycle = false\n");
+  test::expect_parts(
+      test::refusal_of([&] { write_wav(folder_ / "field.h5", "above", {}, folder_ / "a.wav"); }),
+      {"expected a field with a cycle or a window in one segment"});
+}
+
+TEST_F(CycleMeans, LevelsAreThoseOfTheMeanPowerWithItsStandardError) {
+  const Summary summary = of("cycles = 4\n");
+  const std::vector<double> P = powers(4, summary.analyses.at(0).panels[0].total_erp);
+  const PanelResult& found = summary.analyses.at(1).panels[0];
+  EXPECT_NEAR(found.total_erp, mean(P), 1e-9 * mean(P));
+  EXPECT_NEAR(found.erp_error.db.value(), error_db(P), 1e-9);
+  EXPECT_NEAR(found.erp_error.dba.value(), error_db(P), 1e-9);
 }
 
 TEST_F(CycleMeans, OneCycleIsTheLastCycleToTheBit) {
@@ -111,8 +142,8 @@ TEST_F(CycleMeans, OneCycleIsTheLastCycleToTheBit) {
   EXPECT_EQ(window.piece.count, cycle.piece.count);
   EXPECT_EQ(window.velocity.amplitude, cycle.velocity.amplitude);
   EXPECT_EQ(window.panels[0].band_erp_dba, cycle.panels[0].band_erp_dba);
-  EXPECT_EQ(summary.sounds.at(1).total_a, summary.sounds.at(0).total_a);
-  EXPECT_FALSE(summary.sounds.at(1).error.db.has_value());
+  EXPECT_EQ(window.panels[0].total_erp_a, cycle.panels[0].total_erp_a);
+  EXPECT_FALSE(window.panels[0].erp_error.db.has_value());
 }
 
 TEST_F(CycleMeans, ARunThatBeginsBeforeFiringIsCoveredByItsCycle) {
@@ -139,11 +170,11 @@ TEST_F(CycleMeans, SegmentsThatOverlapCountAsTheEquivalentNumber) {
   ASSERT_EQ(window.piece.segments(), 3);
   EXPECT_FALSE(window.piece.is_mean_of_cycles());
   std::vector<double> P;
-  for (size_t k = 2; k < 5; ++k) P.push_back(summary.sounds.at(k).total);
-  EXPECT_NEAR(summary.sounds.at(1).total, mean(P), 1e-9 * mean(P));
+  for (size_t k = 2; k < 5; ++k) P.push_back(summary.analyses.at(k).panels[0].total_erp);
+  EXPECT_NEAR(window.panels[0].total_erp, mean(P), 1e-9 * mean(P));
   const double n_e = equivalent_averages(window.piece);
   EXPECT_LT(n_e, 3.0);
-  EXPECT_NEAR(summary.sounds.at(1).error.db.value(), error_db(P) * std::sqrt(2.0 / (n_e - 1.0)),
+  EXPECT_NEAR(window.panels[0].erp_error.db.value(), error_db(P) * std::sqrt(2.0 / (n_e - 1.0)),
               1e-9);
 }
 
@@ -153,31 +184,27 @@ TEST_F(CycleMeans, AnglesHaveTheSameMeans) {
   const Analysis& window = summary.analyses.at(1);
   EXPECT_EQ(window.piece.segments(), 3);
   EXPECT_TRUE(window.piece.is_mean_of_cycles());
-  EXPECT_NEAR(summary.sounds.at(1).total, mean(powers(3, summary.sounds.at(0).total)),
-              0.1 * summary.sounds.at(0).total);
-  EXPECT_GT(summary.sounds.at(1).error.db.value(), 0.5);
+  const double last = summary.analyses.at(0).panels[0].total_erp;
+  EXPECT_NEAR(window.panels[0].total_erp, mean(powers(3, last)), 0.1 * last);
+  EXPECT_GT(window.panels[0].erp_error.db.value(), 0.5);
 }
 
-TEST_F(CycleMeans, WithoutTheCycleTheyAreCertifiedByTheirLastOneAndNotHeard) {
+TEST_F(CycleMeans, WithoutTheCycleTheyAreCertifiedByTheirLastOne) {
   const FieldCertificate whole = of("cycles = 2\n").certificate;
-  const Summary means = recovered(
-      "sound = 'part.sound.h5'\ncycle = false\n[spectrum]\nto_hz = 1500\n"
-      "[[window]]\nname = 'w'\ncycles = 2\n");
+  const Summary means =
+      recovered("cycle = false\n[spectrum]\nto_hz = 1500\n[[window]]\nname = 'w'\ncycles = 2\n");
   ASSERT_EQ(means.analyses.size(), 1u);
   EXPECT_GT(whole.cycle_to_cycle_velocity_difference.value(), 0.1);
   EXPECT_EQ(means.certificate.cycle_to_cycle_velocity_difference,
             whole.cycle_to_cycle_velocity_difference);
   EXPECT_EQ(means.certificate.cycle_end_velocity_jump, whole.cycle_end_velocity_jump);
-  test::expect_parts(
-      test::refusal_of([&] { write_wav(folder_ / "field.h5", "above", {}, folder_ / "a.wav"); }),
-      {"expected a field with a cycle or a window in one segment"});
 }
 
 TEST_F(CycleMeans, MoreThanWereRecordedAreRefusedWithTheKeyOfTheRun) {
   EXPECT_EQ(refusal("cycles = 6\n"),
             (folder_ / "run.h5").string() +
                 ": window 'w': cycles: found 6, expected at most 5, which the run has recorded: "
-                "set record_cycles = 6 in [time] of its run.toml");
+                "set record_cycles = 6 in [time] of its run.toml, or a later end_s");
   test::expect_parts(refusal("cycles = 5\ndomain = 'angle'\n"),
                      {"expected 5 cycles of 3600", "time.record_cycles = 6"});
   test::expect_parts(refusal("cycles = 2.5\n"), {"cycles: found 2.5, expected a whole number"});

@@ -48,34 +48,13 @@ inline const PartSound& sphere_sound() {
   return sound;
 }
 
-/// A folder with rom.h5, run.h5 of a sphere that pulsates and oscillates, and its sound file.
-class SoundRun : public ::testing::Test {
+/// A folder for rom.h5, run.h5 and field.h5 of a sphere.
+class SphereRun : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = fresh_folder(::testing::UnitTest::GetInstance()->current_test_info()->name());
-    move(kMotion);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  /// Writes the run with this amplitude at kLine, and the sound file.
-  void move(const Eigen::Vector2d& amplitude) {
-    const double w = 2 * kPi * kLine;
-    write_inputs([&](double t) {
-      Motion m{amplitude * std::cos(w * t), {}, {}};
-      m.v = -w * amplitude * std::sin(w * t);
-      m.a = -w * w * m.q;
-      return m;
-    });
-  }
-  void write_inputs(const MotionLaw& law, const RunPlan& plan = {}) {
-    write_run(folder_, sphere_model(), plan, law);
-    rom_ = sha256_of_file(folder_ / "rom.h5");
-    H5File file = H5File::create(folder_ / "part.sound.h5");
-    file.set("/", "schema", kSoundSchema);
-    file.set("/", "version", version());
-    write_sound(file, sphere_sound(), sphere_options(), rom_);
-    file.commit();
-  }
 
   static constexpr double kLine = 500.0;  // 30 lines of a cycle at 2000 rpm
   const Eigen::Vector2d kMotion{1e-6, 2e-6};
@@ -90,8 +69,41 @@ class SoundRun : public ::testing::Test {
     file.commit();
     return summary;
   }
-
   std::filesystem::path folder_;
+};
+
+/// A sphere that pulsates and oscillates, and its sound file.
+class SoundRun : public SphereRun {
+ protected:
+  void SetUp() override {
+    SphereRun::SetUp();
+    move(kMotion);
+  }
+
+  /// Writes the run with this amplitude at kLine, and the sound file.
+  void move(const Eigen::Vector2d& amplitude) {
+    const double w = 2 * kPi * kLine;
+    write_inputs([&](double t) {
+      Motion m{amplitude * std::cos(w * t), {}, {}};
+      m.v = -w * amplitude * std::sin(w * t);
+      m.a = -w * w * m.q;
+      return m;
+    });
+  }
+  void write_inputs(const MotionLaw& law) {
+    write_run(folder_, sphere_model(), RunPlan{}, law);
+    write_sound_file();
+  }
+  /// Of the reduced model in the folder.
+  void write_sound_file() {
+    rom_ = sha256_of_file(folder_ / "rom.h5");
+    H5File file = H5File::create(folder_ / "part.sound.h5");
+    file.set("/", "schema", kSoundSchema);
+    file.set("/", "version", version());
+    write_sound(file, sphere_sound(), sphere_options(), rom_);
+    file.commit();
+  }
+
   std::string rom_;
 };
 

@@ -61,6 +61,11 @@ TEST_F(EffectForecast, AProbeEndsAtItsLimitsAndSaysWhatItSaw) {
   const RunForecast found = probe_run(plain, load_bodies(plain), limits);
   EXPECT_NE(found.source.find("a probe of 30 of 720 deg"), std::string::npos) << found.source;
   EXPECT_GT(found.statistics.accepted, 100);
+  // Cycles that are recorded together have one model, whose operators are made once.
+  const Scene both = scene("[time]\ncycles = 2\nrecord_cycles = 2\n[accuracy]\ntolerance = 1e-3\n");
+  const RunForecast of_both = probe_run(both, load_bodies(both), limits);
+  EXPECT_EQ(of_both.statistics.accepted, found.statistics.accepted);
+  EXPECT_EQ(2 * of_both.statistics.operators, found.statistics.operators);
 }
 
 TEST_F(EffectForecast, TheRunOfTheSameSceneIsUsedAndNoOther) {
