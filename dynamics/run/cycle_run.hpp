@@ -27,7 +27,7 @@ struct Span {
   int cycles = 1;
   double cycle = end - begin;  // the length of one [s]
 
-  /// The end of the cycle that `left` begin before the end of the span, itself included.
+  /// The end of a cycle, of which and of those after it there are `left`.
   double end_of_cycle(int left) const { return left > 1 ? end - cycle * left + cycle : end; }
 };
 
