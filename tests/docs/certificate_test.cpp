@@ -135,7 +135,7 @@ TEST_F(Certificates, AFamilyHoldsTheNamesThatNoOtherFieldHas) {
   EXPECT_FALSE(found.lateral.has_value());
   EXPECT_EQ(found.velocity, (CertificateNumbers{{"block", 7.0}}));
   EXPECT_EQ(dynamics::periodicity_lines(found),
-            (std::vector<std::string>{"periodicity_block: 7", "periodicity_tilt: 6"}));
+            (std::vector<std::string>{"periodicity_tilt: 6 rad", "periodicity_block: 7"}));
   EXPECT_TRUE(dynamics::periodicity_lines({}).empty());
 }
 
