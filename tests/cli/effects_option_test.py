@@ -2,12 +2,12 @@
 """`clatter-dynamics --effects`: what a scene simulates and what it costs, without a run."""
 import json
 import os
-import pty
 import re
 import subprocess
 import unittest
 
 import stages
+from pseudo_terminal import open_terminal
 
 
 class EffectsOption(stages.PipelineTest):
@@ -50,7 +50,7 @@ class EffectsOption(stages.PipelineTest):
         names = {row["name"]: row["state"] for row in json.loads(self.effects("--json").stdout)["effects"]}
         off = [name for name, state in names.items() if state == "off"]
         self.assertGreater(len(off), 1)
-        ours, theirs = pty.openpty()
+        ours, theirs = open_terminal()
         seen = run(theirs, subprocess.PIPE)
         os.close(theirs)
         with open(ours, "rb", buffering=0) as terminal:

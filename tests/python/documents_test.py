@@ -39,7 +39,7 @@ class Documents(stages.PipelineTest):
         found, expected, printed = self.run_python(code)
         self.assertGreaterEqual(len(expected), 8)
         # Meshes of other releases of gmsh differ: their numbers of DoFs by a few per cent, all others by less.
-        np.testing.assert_allclose(found, expected, rtol=0.03)
+        np.testing.assert_allclose(found, expected, rtol=0.06)
         self.assertRegex(printed, r"beam.fe.toml:\d+: .*\n")
         self.assertRegex(printed, r"25.0 0.00074\d+\n50.0 0.00074\d+\n")
 

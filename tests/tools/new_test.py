@@ -95,7 +95,7 @@ class Samples(Folder):
                     self.assertNotIn("../..", path.read_text(), path)
 
     def test_what_a_sample_makes_of_its_files_is_not_copied(self):
-        for name in ("block_liner60.fe.toml", "piston_offset-0.5.mesh.toml", "motored_2bar.csv", "fired_16bar.csv"):
+        for name in ("block_liner60.fe.toml", "piston_offset-0.5.mesh.toml", "motored_2bar.csv", "fired_16bar.csv", "block.mac.csv"):
             self.assertTrue(command.MADE.match(name), name)
         for name in ("block_warm.fe.toml", "motored.csv", "piston.fe.toml", "slap_10um.run.toml"):
             self.assertIsNone(command.MADE.match(name), name)

@@ -2,7 +2,6 @@
 """clatter run: targets, what it finds without PATH, lines on a terminal and in a pipe, the summary."""
 import os
 import pathlib
-import pty
 import subprocess
 import sys
 import tempfile
@@ -11,6 +10,7 @@ import unittest
 import synthetic
 from clatter_command import clatter
 from clatter_tools.run import screen
+from pseudo_terminal import open_terminal
 
 CLATTER = pathlib.Path(__file__).resolve().parents[2] / "tools/clatter"
 STAGES = ("mesh", "assembly", "modal", "condense", "dynamics", "recover")
@@ -52,7 +52,7 @@ class Run(unittest.TestCase):
 
     def terminal(self, *arguments):
         """(exit code, what a terminal of 100 columns gets)."""
-        ours, theirs = pty.openpty()
+        ours, theirs = open_terminal()
         run = subprocess.Popen([sys.executable, "-B", CLATTER, "run", *arguments], cwd=self.folder,
                                stdin=theirs, stdout=theirs, stderr=theirs, env={**self.environment, "COLUMNS": "100"})
         os.close(theirs)

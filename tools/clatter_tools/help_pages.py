@@ -35,7 +35,8 @@ def rows_of(lines):
     for line in lines:
         found = re.match(r"  (\S.*?)(?:\s{2,}(.*))?$", line)
         if found:
-            rows.append([found[1], found[2] or ""])
+            # CLI11 2.4 writes a default as " [0] ", earlier ones as "=0".
+            rows.append([re.sub(r" \[(\S+)\] ?$", r"=\1", found[1]), found[2] or ""])
         elif line.strip() and rows:
             rows[-1][1] = f"{rows[-1][1]} {line.strip()}".strip()
     return rows

@@ -17,7 +17,7 @@ START = {"part": "start with step.run.toml, the scene, and beam.*.toml, its part
          "drive": "start with drive.run.toml, the scene, and block.*.toml, its part; valves.run.toml changes a few tables of it"}
 OWN = ("*.toml", "*.csv", "*.mk", "Makefile", "compare")
 # What the Makefile of truck_diesel makes of its other files.
-MADE = re.compile(r"(block_(liner|damping)|piston_(density|crown|offset)|motored_|fired_)-?\d")
+MADE = re.compile(r"(block_(liner|damping)|piston_(density|crown|offset)|motored_|fired_)-?\d|.*\.mac\.csv$")
 INCLUDE = re.compile(r"^include .*clatter rules.*$", re.M)
 
 
