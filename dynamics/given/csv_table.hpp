@@ -22,7 +22,8 @@ struct CsvColumns {
 ///     -180, 1.0
 ///
 /// Separators: comma or semicolon. Units: deg, rad, rad/s, rpm, s, ms, us, Pa, kPa, bar, MPa, N,
-/// kN, N m, N/m, N/mm, N s/m, N s/mm, m, mm, um, K, degC, 1; each is converted to SI. InputError "file:line:
+/// kN, N m, N/m, N/mm, N s/m, N s/mm, m, mm, um, K, degC, 1; each is converted to SI. InputError
+/// "file:line:
 /// ..." for a missing header, an unknown unit, a name of two columns, a missing or extra cell, a
 /// value that is not a finite number, an abscissa that does not ascend.
 CsvColumns read_csv(const std::filesystem::path& path, const std::string& column);

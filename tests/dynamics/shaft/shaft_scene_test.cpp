@@ -349,7 +349,8 @@ TEST_F(ShaftScenes, AreRefusedByTableKeyAndName) {
   expect(head + section + plain + "stiffness_matrix_n_m = [1, 2]\n",
          "stiffness_matrix_n_m: found 2 numbers, expected 4");
   std::ofstream(folder_ / "b.csv") << "speed [rpm], k11 [N/mm], c11 [N s/m]\n0, 1, 2\n";
-  expect(head + section + plain + "table = \"b.csv\"\n", "b.csv:1: no column \"k12\", found: k11, c11");
+  expect(head + section + plain + "table = \"b.csv\"\n",
+         "b.csv:1: no column \"k12\", found: k11, c11");
   std::ofstream(folder_ / "c.csv") << "speed [rpm], k11 [N], c11 [N s/m]\n0, 1, 2\n";
   expect(head + section + plain + "table = \"c.csv\"\n",
          "c.csv:1: found k11 in [N] over [rad/s], expected units of [N/m] over a speed, [rpm]");
