@@ -69,15 +69,14 @@ std::string judge(const Table& table, const Key& key, const Config& config,
 Overruled overruled_keys(const Table& table, const Config& config) {
   Overruled overruled;
   if (config.files().size() < 2) return overruled;
-  for (size_t before = 1;
-       before != overruled.size();) {  // what needs an overruled key goes with it
+  size_t before = 0;
+  do {  // what needs an overruled key goes with it
     before = overruled.size();
     for (const Key& key : table.keys())
       if (config.has(key.name) && !overruled.contains(key.name))
         if (const std::string by = judge(table, key, config, overruled); !by.empty())
           overruled[key.name] = by;
-    if (overruled.empty()) break;
-  }
+  } while (overruled.size() > before);
   return overruled;
 }
 

@@ -100,8 +100,7 @@ void Stop::accept_step(double time) {
   if (bristle_)
     bristle_->accept_step();
   else if (friction_.slip_speed && accepted_[1] > 0.0 && accepted_[2] < *friction_.slip_speed)
-    crept_ += accepted_[2] * (time - accepted_time_);
-  accepted_time_ = time;
+    crept_ += accepted_[2] * (time - begun_);
 }
 
 Power Stop::power(const VectorXd& y, const VectorXd& v) const {

@@ -36,6 +36,7 @@ class Stop : public ForceElement {
   std::string name() const override { return name_; }
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, Response& response) override;
+  void begin_step(double time) override { begun_ = time; }
   void finish_stage(const Stage& stage) override;
   void accept_step(double time) override;
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
@@ -64,7 +65,7 @@ class Stop : public ForceElement {
   std::string name_;
   std::array<std::string, 3> recorded_;
   std::array<double, 3> last_{}, finished_{}, accepted_{};  // gap, force, slip
-  double time_ = 0.0, accepted_time_ = 0.0, crept_ = 0.0;
+  double time_ = 0.0, begun_ = 0.0, crept_ = 0.0;
   std::optional<Bristle> bristle_;
   Eigen::Vector2d against_ = Eigen::Vector2d::Zero();  // friction of the last evaluation [N]
   Eigen::RowVectorXd by_normal_;

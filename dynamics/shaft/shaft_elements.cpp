@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -73,7 +74,17 @@ void add_unbalances(const ShaftSpec& shaft, const ShaftBodies& bodies, System& s
   for (size_t d = 0; d < shaft.discs.size(); ++d) {
     const ShaftDiscSpec& disc = shaft.discs[d];
     if (disc.unbalance == 0.0) continue;
-    const int body = bodies.body[station_of_disc(bodies.stations, d)];
+    const size_t station = station_of_disc(bodies.stations, d);
+    const DiscInertia& own = bodies.stations[station].inertia;
+    // A mass that turns about the axis at the distance U / m has at least U^2 / m about it.
+    const double polar = bodies.wheel[d] >= 0 ? disc.inertia.polar : own.polar,
+                 most = std::sqrt(own.mass * polar);
+    if (!(disc.unbalance < most))
+      throw InputError(fmt::format(
+          "{}: disc \"{}\": unbalance_g_mm: found {:g}, expected below {:.4g}, the root of mass "
+          "times polar moment there",
+          shaft.where, disc.name, disc.unbalance / 1e-6, most / 1e-6));
+    const int body = bodies.body[station];
     const std::vector<BodyDof> dofs{
         {body, shaft.axes.first()}, {body, shaft.axes.second()}, bodies.disc_angle(shaft, d)};
     system.add_element(std::make_unique<DiscUnbalance>(

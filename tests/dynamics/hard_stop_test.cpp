@@ -206,5 +206,37 @@ TEST(RigidStop, ResumesItsModeAndItsSum) {
   EXPECT_THROW(other.element(0).restore({1.0}), InputError);
 }
 
+TEST(RigidStop, ResumesWhatSticks) {
+  // A block that slides to a stop on its floor while it bounces, held by a spring.
+  const auto make = [](System& system) {
+    PlanarMotion start;
+    start.centre = {1e-3, 0.0};
+    start.velocity = {0.0, 0.05};
+    const auto y = testing::add_planar(system, "block", 1.0, 1.0, start);
+    add_weight(system, 0, 1.0);
+    system.add_element(std::make_unique<RigidStop>(
+        "floor",
+        PointOnPlane(std::make_unique<PlanarPort>(y, Eigen::Vector2d::Zero()),
+                     std::make_unique<GroundPort>(Vector3d::Zero()), Vector3d::UnitX()),
+        0.3, 1e8, FrictionLaw{0.2, 0.3, {}, 1e7, 1e-4}));
+  };
+  for (const double until : {0.02, 0.03, 0.05}) {
+    System one, other;
+    make(one);
+    make(other);
+    const auto method = started(one, options_with(1e-6));
+    while (method->state().time < until) method->step(until);
+    other.element(0).restore(one.element(0).save());
+    const auto resumed = make_integrator(other, options_with(1e-6));
+    resumed->resume(method->state(), method->rung());
+    method->forget_history();
+    for (Integrator* each : {method.get(), resumed.get()})
+      while (each->state().time < 0.1) each->step(0.1);
+    EXPECT_EQ(resumed->state().eta, method->state().eta) << until;
+    EXPECT_EQ(resumed->state().v, method->state().v) << until;
+    EXPECT_LT(method->state().v.norm(), 1e-6) << until;
+  }
+}
+
 }  // namespace
 }  // namespace clatter::dynamics

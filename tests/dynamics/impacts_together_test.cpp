@@ -4,27 +4,23 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "core/base/units.hpp"
-#include "tests/dynamics/slap_scene.hpp"
+#include "tests/dynamics/scene_text.hpp"
 #include "tests/observed.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
-class HardTD4_ImpactsTogether : public ::testing::Test {
+class HardTD4_ImpactsTogether : public testing::SceneText {
  protected:
+  HardTD4_ImpactsTogether() : SceneText("impacts") {}
   H5File recorded(const std::string& bodies, double end, double gravity = 9.81) {
-    std::ofstream(folder_ / "impacts.run.toml") << fmt::format(
-        "gravity_m_s2 = {}\n[time]\nend_s = {}\noutput_step_us = 500\n[accuracy]\n"
-        "tolerance = 1e-6\n{}",
-        gravity, end, bodies);
-    return testing::complete_file(read_scene(folder_ / "impacts.run.toml"),
-                                  folder_ / "impacts.run.h5", result_);
+    return SceneText::recorded(
+        fmt::format("gravity_m_s2 = {}\n[time]\nend_s = {}\noutput_step_us = 500\n[accuracy]\n"
+                    "tolerance = 1e-6\n{}",
+                    gravity, end, bodies));
   }
-  std::filesystem::path folder_ = testing::test_folder();
-  RunResult result_;
 };
 
 std::string box(const std::string& name, double height_mm) {

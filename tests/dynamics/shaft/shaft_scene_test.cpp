@@ -11,26 +11,14 @@
 #include "dynamics/given/cam_law.hpp"
 #include "dynamics/run/run_file.hpp"
 #include "tests/dynamics/mechanisms.hpp"
-#include "tests/dynamics/slap_scene.hpp"
-#include "tests/refusal.hpp"
+#include "tests/dynamics/scene_text.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
-class ShaftScenes : public ::testing::Test {
+class ShaftScenes : public testing::SceneText {
  protected:
-  Scene scene(const std::string& text) {
-    std::ofstream(folder_ / "cam.run.toml") << text;
-    return read_scene(folder_ / "cam.run.toml");
-  }
-  std::string refusal(const std::string& text) {
-    return test::refusal_of([&] { build_model(scene(text), {}); });
-  }
-  H5File recorded(const std::string& text) {
-    return testing::complete_file(scene(text), folder_ / "cam.run.h5", result_);
-  }
-  std::filesystem::path folder_ = testing::test_folder();
-  RunResult result_;
+  ShaftScenes() : SceneText("cam") {}
 };
 
 /// The intake cam of the timing drive's reference: wheel, shaft, four bearings, three cylinders.
@@ -341,6 +329,8 @@ TEST_F(ShaftScenes, AreRefusedByTableKeyAndName) {
          "model: found \"moss\", expected one of: butenschoen, moes, linear");
   expect(head + "model = \"torsion\"\n" + section + disc + "polar_kg_m2 = 1\nunbalance_g_mm = 5\n",
          "shaft[0].disc[0].unbalance_g_mm: found with an axis that is fixed, expected model");
+  expect(head + section + disc + "polar_kg_m2 = 1e-4\nunbalance_g_mm = 2e4\n",
+         "disc \"wheel\": unbalance_g_mm: found 20000, expected below");
   const std::string plain =
       "[[shaft.bearing]]\nname = \"b\"\nat_mm = 50\nmodel = \"coefficients\"\n";
   expect(head + section + plain,

@@ -104,6 +104,26 @@ unbalance_deg = 20
                      rpm, bearing);
 }
 
+TEST(Unbalance, ResumesToTheBit) {
+  const std::string text =
+      rotor(3000.0, "model = \"linear\"\nstiffness_n_m = 1e6\ndamping_n_s_m = 400");
+  ShaftModelOf one(text), other(text);
+  StepOptions options;
+  options.largest = 1e-4;
+  options.accuracy = {1e-6, 1e-5, 0.1, 0.05};
+  const auto method = started(one.system(), options);
+  while (method->state().time < 0.01) method->step(0.01);
+  for (int e = 0; e < one.system().elements(); ++e)
+    other.system().element(e).restore(one.system().element(e).save());
+  const auto resumed = make_integrator(other.system(), options);
+  resumed->resume(method->state(), method->rung());
+  method->forget_history();
+  for (Integrator* each : {method.get(), resumed.get()})
+    while (each->state().time < 0.02) each->step(0.02);
+  EXPECT_EQ(resumed->state().eta, method->state().eta);
+  EXPECT_EQ(resumed->state().v, method->state().v);
+}
+
 /// Where the axis is at 0.5 s, and the direction of the unbalance, as x + i y.
 struct Whirl {
   std::complex<double> at, unbalance;
