@@ -57,22 +57,27 @@ void write_new_mesh(const MeshArguments& a, const CommonOptions& common) {
         "{0}: found .h5, expected a description, CAD or a deck; `clatter-mesh export {0} FILE` "
         "exports a finished mesh",
         request.input.string()));
+  for (const auto& path : a.exports) check_export(path);
   StepClock clock;
   const NewMesh made = make_mesh(request, clock);
   for (const std::string& line : describe(made)) print_result(line);
   if (!a.recipe.empty() && !made.recipe)
     throw InputError(fmt::format("{}: --recipe needs a deck", request.input.string()));
-  write_artefact(request.output, made.provenance, clock, common, [&](H5File& file) {
+  const auto content = [&](H5File& file) {
     write_mesh(file, made.mesh);
     write_quality(file, made.quality);
     if (a.parts > 0) write_partition(file, partition_cells(made.mesh, a.parts));
     write_certificate(file, made.certificate);
-  });
-  if (!a.recipe.empty()) write_whole_file(a.recipe, keys::schema_line("fe") + made.recipe->text());
-  if (!made.cad.empty()) write_whole_file(request.step, made.cad);
-  if (!made.description.empty())
-    keep_description(description_beside(request.output), made.description);
-  for (const auto& path : a.exports) export_mesh(made.mesh, path);
+  };
+  const auto companions = [&] {
+    if (!a.recipe.empty())
+      write_whole_file(a.recipe, keys::schema_line("fe") + made.recipe->text());
+    if (!made.cad.empty()) write_whole_file(request.step, made.cad);
+    if (!made.description.empty())
+      keep_description(description_beside(request.output), made.description);
+    for (const auto& path : a.exports) export_mesh(made.mesh, path);
+  };
+  write_artefact(request.output, made.provenance, clock, common, content, companions);
   print_json_result(request.output, json_of(made), clock, common);
 }
 

@@ -48,8 +48,8 @@ void recover_run(const Arguments& a, const clatter::CommonOptions& common) {
   recover::Summary summary;
   write_artefact(
       a.output, {recover::kFieldSchema, resolved, inputs}, clock, common,
-      [&](H5File& file) { summary = recover::recover(body, model, options, file, clock); });
-  recover::write_exports(a.output, summary);
+      [&](H5File& file) { summary = recover::recover(body, model, options, file, clock); },
+      [&] { recover::write_exports(a.output, summary); });
   print_result(recover::summary_text(summary));
   print_json_result(a.output, recover::json_of(summary), clock, common);
 }

@@ -64,20 +64,22 @@ H5File H5File::create(const std::filesystem::path& path) {
   return H5File(std::move(impl));
 }
 
-void H5File::commit() {
+void H5File::complete() {
+  if (impl_->file < 0) return;
   const auto part = impl_->part_path;
-  const auto fail = [&](const char* what) {
-    throw FileError(
-        fmt::format("{}: cannot be {} (disk full or no permission?)", part.string(), what));
-  };
   const bool flushed = H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) >= 0;
   const bool closed = H5Fclose(std::exchange(impl_->file, -1)) >= 0;
-  if (!flushed || !closed) fail("written");
+  if (!flushed || !closed) impl_->refuse_part("written");
   const int descriptor = ::open(part.c_str(), O_RDWR);
   const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
   if (descriptor >= 0) ::close(descriptor);
-  if (!synced) fail("synced");
-  if (std::rename(part.c_str(), impl_->final_path.c_str()) != 0) fail("renamed");
+  if (!synced) impl_->refuse_part("synced");
+}
+
+void H5File::commit() {
+  complete();
+  if (std::rename(impl_->part_path.c_str(), impl_->final_path.c_str()) != 0)
+    impl_->refuse_part("renamed");
   impl_->part_path.clear();
   impl_->lock = PartLock();  // readers of the finished file are not kept out
 }

@@ -30,7 +30,9 @@ class H5File {
   H5File& operator=(H5File&&) noexcept;
   ~H5File();
 
-  /// Flushes, closes, syncs and renames `path.part` to `path`.
+  /// Flushes, closes and syncs `path.part`, which takes no more data then.
+  void complete();
+  /// Completes and renames `path.part` to `path`.
   void commit();
   /// The same with another final path in the same folder.
   void commit(const std::filesystem::path& final_path);

@@ -77,6 +77,11 @@ struct H5File::Impl {
   std::string at(std::string_view name) const {
     return fmt::format("{}: {}", final_path.string(), name);
   }
+  [[noreturn]] void refuse_part(const char* what) const {
+    throw FileError(
+        fmt::format("{}: cannot be {} (disk full or no permission?)", part_path.string(), what));
+  }
+
   [[noreturn]] void refuse(std::string_view name, const std::string& what) const {
     throw InputError(fmt::format("{}: {}", at(name), what));
   }

@@ -48,15 +48,13 @@ std::string make_word(const std::filesystem::path& path, bool target) {
   return word;
 }
 
-/// Writes the list of inputs for make, then what `finish` does: a process that is killed between
-/// the two must not leave files whose inputs make does not know (hard case P2). A list that cannot
-/// be written must not cost them: its FileError comes after `finish`.
-void finish_after_depfile(const std::filesystem::path& depfile, const std::filesystem::path& target,
-                          const std::vector<std::filesystem::path>& inputs,
-                          const std::function<void()>& finish) {
+/// Does `before`, then `finish`: a process that is killed between the two must not leave files that
+/// make takes for complete (hard case P2). A failure of `before` must not cost them: its error
+/// comes after `finish`.
+void finish_after(const std::function<void()>& before, const std::function<void()>& finish) {
   std::exception_ptr failure;
   try {
-    write_depfile(depfile, target, inputs);
+    before();
   } catch (...) {
     failure = std::current_exception();
   }
@@ -68,18 +66,24 @@ void finish_after_depfile(const std::filesystem::path& depfile, const std::files
 
 void write_artefact(const std::filesystem::path& output, const Provenance& provenance,
                     const StepClock& clock, const CommonOptions& common,
-                    const std::function<void(H5File&)>& content) {
+                    const std::function<void(H5File&)>& content,
+                    const std::function<void()>& companions) {
   H5File file = H5File::create(output);
   content(file);
-  finish_artefact(file, output, provenance, clock, common);
+  finish_artefact(file, output, provenance, clock, common, companions);
 }
 
 void finish_artefact(H5File& file, const std::filesystem::path& output,
                      const Provenance& provenance, const StepClock& clock,
-                     const CommonOptions& common) {
+                     const CommonOptions& common, const std::function<void()>& companions) {
   write_provenance(file, provenance);
   write_timing(file, clock);
-  finish_after_depfile(common.depfile, output, provenance.inputs, [&] {
+  file.complete();
+  const auto before = [&] {
+    write_depfile(common.depfile, output, provenance.inputs);
+    companions();
+  };
+  finish_after(before, [&] {
     file.commit(output);
     date_before_changed_inputs(output, provenance.inputs);
   });
@@ -98,10 +102,11 @@ void write_exports(const ExportedFiles& exported, const CommonOptions& common,
                    const std::function<std::string()>& write) {
   std::vector<std::string> files;
   for (const auto& file : exported.files) files.push_back(json_text(file.string()));
-  finish_after_depfile(common.depfile, exported.target, exported.inputs, [&] {
-    const std::string what = write();
-    print_result(fmt::format("{} to {}", what, fmt::join(files, ", ")));
-  });
+  finish_after([&] { write_depfile(common.depfile, exported.target, exported.inputs); },
+               [&] {
+                 const std::string what = write();
+                 print_result(fmt::format("{} to {}", what, fmt::join(files, ", ")));
+               });
   if (common.json) print_json({{"files", fmt::format("[{}]", fmt::join(files, ", "))}});
 }
 

@@ -16,17 +16,21 @@ namespace clatter {
 /// Writes an artefact: what `content` writes, `provenance` and the steps of `clock`, in a file that
 /// gets its name when it is complete and after the dependency file of `common`. An exception of
 /// `content` leaves an older artefact unchanged. FileError when a file cannot be written; the
-/// artefact is there when only the dependency file cannot.
-void write_artefact(const std::filesystem::path& output, const Provenance& provenance,
-                    const StepClock& clock, const CommonOptions& common,
-                    const std::function<void(H5File&)>& content);
+/// artefact is there when only the dependency file cannot, or what `companions` writes: files that
+/// belong to the artefact. They are written when it is safe on the disk and before it gets its
+/// name, which make takes for all of them.
+void write_artefact(
+    const std::filesystem::path& output, const Provenance& provenance, const StepClock& clock,
+    const CommonOptions& common, const std::function<void(H5File&)>& content,
+    const std::function<void()>& companions = [] {});
 
 /// Finishes an artefact that was written during the work: adds `provenance` and the steps of
 /// `clock`, writes the dependency file, then gives it its name `output` (in the folder in which it
 /// was created). FileError as above.
-void finish_artefact(H5File& file, const std::filesystem::path& output,
-                     const Provenance& provenance, const StepClock& clock,
-                     const CommonOptions& common);
+void finish_artefact(
+    H5File& file, const std::filesystem::path& output, const Provenance& provenance,
+    const StepClock& clock, const CommonOptions& common,
+    const std::function<void()>& companions = [] {});
 
 /// The results of a stage for --json, in one line: {"output": ..., `members`, "seconds": ...};
 /// no effect without --json.

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/whole_file.hpp"
@@ -26,22 +28,33 @@ void warn_of_hanging_mid_side_nodes(const Mesh& mesh, const std::filesystem::pat
                   path.string(), set->second.size(), kHangingMidSideNodes));
 }
 
-}  // namespace
+template <std::string (*kText)(const Mesh&)>
+void write_text(const Mesh& mesh, const std::filesystem::path& path) {
+  write_whole_file(path, kText(mesh));
+}
 
-void export_mesh(const Mesh& mesh, const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  if (extension == ".vtu") return write_whole_file(path, vtu_text(mesh));
-  if (extension == ".msh" || extension == ".inp" || extension == ".med" || extension == ".unv")
-    warn_of_hanging_mid_side_nodes(mesh, path);
-  if (extension == ".msh") return write_whole_file(path, msh_text(mesh));
-  if (extension == ".med") return write_med(mesh, path);
-  if (extension == ".unv") return write_whole_file(path, unv_text(mesh));
-  if (extension == ".inp") return deck::write_abaqus(mesh, path);
-  if (extension == ".bdf" || extension == ".nas" || extension == ".dat")
-    return deck::write_nastran(mesh, path);
+using Writer = void (*)(const Mesh&, const std::filesystem::path&);
+
+Writer writer_of(const std::filesystem::path& path) {
+  static const std::map<std::string, Writer> writers = {
+      {".vtu", write_text<vtu_text>}, {".msh", write_text<msh_text>}, {".med", write_med},
+      {".unv", write_text<unv_text>}, {".inp", deck::write_abaqus},   {".bdf", deck::write_nastran},
+      {".nas", deck::write_nastran},  {".dat", deck::write_nastran}};
+  const auto writer = writers.find(path.extension().string());
+  if (writer != writers.end()) return writer->second;
   throw InputError(fmt::format(
       "{}: found extension '{}', expected .vtu, .msh, .med, .unv, .inp, .bdf, .nas or .dat",
-      path.string(), extension));
+      path.string(), path.extension().string()));
+}
+
+}  // namespace
+
+void check_export(const std::filesystem::path& path) { writer_of(path); }
+
+void export_mesh(const Mesh& mesh, const std::filesystem::path& path) {
+  const Writer write = writer_of(path);
+  if (path.extension() != ".vtu") warn_of_hanging_mid_side_nodes(mesh, path);
+  write(mesh, path);
 }
 
 }  // namespace clatter::mesh

@@ -19,4 +19,7 @@ namespace clatter::mesh {
 /// same mesh.
 void export_mesh(const Mesh& mesh, const std::filesystem::path& path);
 
+/// InputError where export_mesh knows no format for the extension: asked before long work.
+void check_export(const std::filesystem::path& path);
+
 }  // namespace clatter::mesh

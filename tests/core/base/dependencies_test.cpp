@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/base/whole_file.hpp"
 #include "core/base/write_artefact.hpp"
 #include "tests/refusal.hpp"
 #include "tests/scratch.hpp"
@@ -26,10 +27,12 @@ class HardP2_Dependencies : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  void write(const fs::path& depfile) const {
+  void write(
+      const fs::path& depfile, const std::function<void()>& companions = [] {}) const {
     CommonOptions common;
     common.depfile = depfile;
-    write_artefact(artefact_, {"clatter/mesh/1", "", {}}, StepClock(), common, [](H5File&) {});
+    write_artefact(
+        artefact_, {"clatter/mesh/1", "", {}}, StepClock(), common, [](H5File&) {}, companions);
   }
 
   fs::path folder_, artefact_;
@@ -46,6 +49,26 @@ TEST_F(HardP2_Dependencies, AreListedBeforeTheArtefactIsThere) {
 TEST_F(HardP2_Dependencies, ThatCannotBeListedDoNotCostTheArtefact) {
   const fs::path depfile = folder_ / "missing" / "part.mesh.h5.d";
   test::expect_parts(test::refusal_of<FileError>([&] { write(depfile); }), {depfile.string()});
+  EXPECT_TRUE(fs::is_regular_file(artefact_));
+}
+
+// Make takes the artefact's name for the files that are written with it.
+TEST_F(HardP2_Dependencies, CompanionsAreThereBeforeTheArtefact) {
+  bool early = false;
+  write({}, [&] {
+    early = fs::exists(artefact_.string() + ".part") && !fs::exists(artefact_);
+    write_whole_file(folder_ / "part.vtu", "cells");
+  });
+  EXPECT_TRUE(early);
+  EXPECT_TRUE(fs::is_regular_file(artefact_));
+  EXPECT_EQ(read_whole_file(folder_ / "part.vtu"), "cells");
+}
+
+TEST_F(HardP2_Dependencies, CompanionsThatFailDoNotCostTheArtefact) {
+  const fs::path companion = folder_ / "missing" / "part.vtu";
+  test::expect_parts(test::refusal_of<FileError>(
+                         [&] { write({}, [&] { write_whole_file(companion, "cells"); }); }),
+                     {companion.string()});
   EXPECT_TRUE(fs::is_regular_file(artefact_));
 }
 
