@@ -262,19 +262,22 @@ StaticSolution solve_static(const fe::FeModel& model, const std::vector<std::str
 std::vector<std::string> describe(const fe::FeModel& model, const StaticSolution& solution) {
   std::vector<std::string> lines;
   for (const StaticCase& one : solution.cases) {
-    Eigen::Index largest = 0;
-    double most = 0.0;
-    for (Eigen::Index a = 0; a < model.nodes.rows(); ++a) {
-      const double length = one.displacement.segment<3>(3 * a).norm();
-      if (length <= most) continue;
-      most = length;
-      largest = a;
-    }
+    Eigen::Vector3d largest = Eigen::Vector3d::Zero();
+    double most = -1.0;
+    const auto look = [&](const Eigen::Vector3d& u, const Eigen::Vector3d& at) {
+      if (u.norm() <= most) return;
+      most = u.norm();
+      largest = at;
+    };
+    for (Eigen::Index a = 0; a < model.nodes.rows(); ++a)
+      look(one.displacement.segment<3>(3 * a), model.nodes.row(a));
+    for (Eigen::Index p = 0; p < one.points.size() / 6; ++p)
+      look(one.points.segment<3>(6 * p), model.points.position.row(p));
     lines.push_back(fmt::format(
         "{}: largest displacement {:.6g} m at ({:.4f}, {:.4f}, {:.4f}) m, energy "
         "{:.6g} J, backward error {:.1e}, error by rounding about {:.1e}, balance {:.1e}",
-        one.name, most, model.nodes(largest, 0), model.nodes(largest, 1), model.nodes(largest, 2),
-        one.energy, one.backward_error, one.forward_error, one.balance));
+        one.name, most, largest.x(), largest.y(), largest.z(), one.energy, one.backward_error,
+        one.forward_error, one.balance));
     if (!one.stress.empty()) lines.push_back(describe_largest_stress(model, one));
     for (Eigen::Index s = 0; s < one.support_sums.rows(); ++s)
       lines.push_back(

@@ -25,13 +25,32 @@ struct IdFlags {
   std::vector<bool> massive;  // has a [[point_mass]]
 };
 
+/// Calls body(functional) for each row of the matrices of stiffness, or of mass, divided by its
+/// largest entry.
+template <class Body>
+void for_each_row(const PartData& part, const Relations& relations, bool of_mass,
+                  const Body& body) {
+  for (size_t m = 0; m < relations.matrix_dofs.size(); ++m) {
+    const MatrixSpec& matrix = part.recipe.matrices[m];
+    if (matrix.is_mass != of_mass) continue;
+    for (const auto& row : matrix.values.rowwise()) {
+      Functional one;
+      const double largest = row.cwiseAbs().maxCoeff();
+      for (Eigen::Index i = 0; i < row.size(); ++i) {
+        if (row(i) == 0.0) continue;
+        one.dofs.push_back(relations.matrix_dofs[m].dofs[i]);
+        one.values.push_back(row(i) / largest);
+      }
+      body(one);
+    }
+  }
+}
+
 /// Calls body(functional) for each spring and each row of a stiffness matrix.
 template <class Body>
 void for_each_elastic(const PartData& part, const Relations& relations, const Body& body) {
   for (const Functional& spring : relations.springs) body(spring);
-  for (size_t m = 0; m < relations.matrix_dofs.size(); ++m)
-    for (const int32_t id : relations.matrix_dofs[m].dofs)
-      if (!part.recipe.matrices[m].is_mass) body(Functional{{id}, {1.0}});
+  for_each_row(part, relations, false, body);
 }
 
 /// Ids that nodes, springs or stiffness matrices depend on.
@@ -45,21 +64,10 @@ std::vector<bool> moving_ids(const PartData& part, const Relations& relations,
   return moves;
 }
 
-/// Ids with mass of a [[point_mass]] on a point or on the reference of a rigid coupling, or of a
-/// mass matrix.
-std::vector<bool> massive_ids(const PartData& part, const Relations& relations,
-                              Eliminator& eliminator) {
+/// DoFs that a [[point_mass]] on a point or on the reference of a rigid coupling moves.
+std::vector<Functional> masses_of(const PartData& part, const Relations& relations) {
   const Recipe& recipe = part.recipe;
-  std::vector<bool> massive(static_cast<size_t>(part.numbers.count()) +
-                            6 * relations.references.size());
-  const auto add = [&](int32_t of) {
-    for (const int32_t id : eliminator.express({{of}, {1.0}}).dofs)
-      if (static_cast<size_t>(id) < massive.size()) massive[id] = true;
-  };
-  for (size_t m = 0; m < recipe.matrices.size(); ++m)
-    for (size_t i = 0; i < recipe.matrices[m].terms.size(); ++i)
-      if (recipe.matrices[m].is_mass && !recipe.matrices[m].values.row(i).isZero(0.0))
-        add(relations.matrix_dofs[m].dofs[i]);
+  std::vector<Functional> masses;
   for (const PointMassSpec& spec : recipe.point_masses) {
     const auto own = relations.references.find(spec.on);
     const bool is_point = std::any_of(recipe.points.begin(), recipe.points.end(),
@@ -68,8 +76,22 @@ std::vector<bool> massive_ids(const PartData& part, const Relations& relations,
     const ReferenceDofs reference =
         is_point ? point_dofs(part.numbers, point_named(part, spec.on)) : own->second;
     const bool turns = !spec.inertia.isZero(0.0) || !spec.offset.isZero(0.0);
-    for (size_t d = 0; d < (turns ? 6 : 3); ++d) add(reference.ids[d]);
+    for (size_t d = 0; d < (turns ? 6 : 3); ++d) masses.push_back({{reference.ids[d]}, {1.0}});
   }
+  return masses;
+}
+
+/// Ids of `masses`, and of mass matrices.
+std::vector<bool> massive_ids(const PartData& part, const Relations& relations,
+                              const std::vector<Functional>& masses, Eliminator& eliminator) {
+  std::vector<bool> massive(static_cast<size_t>(part.numbers.count()) +
+                            6 * relations.references.size());
+  const auto add = [&](const Functional& one) {
+    for (const int32_t id : eliminator.express(one).dofs)
+      if (static_cast<size_t>(id) < massive.size()) massive[id] = true;
+  };
+  for (const Functional& one : masses) add(one);
+  for_each_row(part, relations, true, add);
   return massive;
 }
 
@@ -120,22 +142,20 @@ void drop_loose(const Reference& reference, const IdFlags& flags, Eliminator& el
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// G = sum r r^T over the rows of T of nodes, springs and stiffness matrices, r their entries for
-/// the six DoFs of each reference: G n = 0 when the motion n moves nothing.
-std::vector<Matrix6> motion_grams(const PartData& part, const Relations& relations,
-                                  const std::vector<Reference>& references,
-                                  Eliminator& eliminator) {
+/// G = sum r r^T over functionals, r their entries for the six DoFs of each reference: G n = 0 when
+/// the motion n changes none of them. @param for_each calls its argument with each functional.
+template <class ForEach>
+std::vector<Matrix6> motion_grams(const std::vector<Reference>& references, Eliminator& eliminator,
+                                  const ForEach& for_each) {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   std::unordered_multimap<int32_t, std::pair<size_t, Eigen::Index>> place;  // of their ids
   std::vector<Matrix6> grams(references.size(), Matrix6::Zero());
   for (size_t k = 0; k < references.size(); ++k)
-    for (Eigen::Index d = 0; d < 6; ++d) {
-      const int32_t id = references[k].dofs.ids[d];
-      if (!eliminator.is_coordinate(id)) continue;
-      place.emplace(id, std::pair(k, d));
-      if (id < part.numbers.nodal()) grams[k](d, d) += 1.0;  // a point on a node moves the node
-    }
-  const auto add = [&](const Functional& one) {
+    for (Eigen::Index d = 0; d < 6; ++d)
+      if (const int32_t id = references[k].dofs.ids[d]; eliminator.is_coordinate(id))
+        place.emplace(id, std::pair(k, d));
+  if (place.empty()) return grams;
+  for_each([&](const Functional& one) {
     std::map<size_t, Vector6> rows;  // by reference
     const Functional row = eliminator.express(one);
     for (size_t k = 0; k < row.dofs.size(); ++k) {
@@ -145,10 +165,7 @@ std::vector<Matrix6> motion_grams(const PartData& part, const Relations& relatio
             row.values[k];
     }
     for (const auto& [k, r] : rows) grams[k] += r * r.transpose();
-  };
-  for (int64_t dof = 0; dof < part.numbers.nodal() && !place.empty(); ++dof)
-    if (const auto id = static_cast<int32_t>(dof); eliminator.is_eliminated(id)) add({{id}, {1.0}});
-  for_each_elastic(part, relations, add);
+  });
   return grams;
 }
 
@@ -189,19 +206,22 @@ void replace_rotations(const Reference& reference, const Eigen::Matrix3Xd& kept,
 }
 
 /// Omits the rotations of a reference that move nothing, unless displacements take part in such a
-/// motion: that is refused later. @param gram of motion_grams().
-void omit_still_rotations(const Reference& reference, const Matrix6& gram, const IdFlags& flags,
+/// motion: that is refused later. @param moved, mass of motion_grams(): of nodes, springs and
+/// stiffness matrices; of masses.
+void omit_still_rotations(const Reference& reference, const Matrix6& moved, const Matrix6& mass,
                           Eliminator& eliminator, Motions& motions) {
   const auto& ids = reference.dofs.ids;
-  const auto all = [&](const auto& is) { return std::all_of(ids.begin() + 3, ids.end(), is); };
-  if (!all([&](int32_t id) { return eliminator.is_coordinate(id); })) return;
-  const Eigen::Matrix3d rotations = gram.bottomRightCorner<3, 3>();
+  if (!std::all_of(ids.begin() + 3, ids.end(),
+                   [&](int32_t id) { return eliminator.is_coordinate(id); }))
+    return;
+  const Eigen::Matrix3d rotations = moved.bottomRightCorner<3, 3>();
+  const Eigen::Matrix3d inertia = mass.bottomRightCorner<3, 3>();
   const int still = still_motions(rotations);
-  if (still == 0 || still != still_motions(gram)) return;
+  if (still == 0 || still != still_motions(moved)) return;
   const Eigen::Matrix3d axes = dense::symmetric_eigen(rotations).vectors;
   for (int k = 0; k < still; ++k) {
     const Eigen::Vector3d axis = axes.col(k);
-    if (!all([&](int32_t id) { return !flags.massive[id]; }))
+    if (axis.dot(inertia * axis) > kStill * inertia.trace())
       refuse_mass(reference, axis_text(axis));
     say(fmt::format("{}: {} omitted: nothing is attached", reference.name, axis_text(axis)));
   }
@@ -211,14 +231,23 @@ void omit_still_rotations(const Reference& reference, const Matrix6& gram, const
 }  // namespace
 
 Motions drop_unattached(const PartData& part, const Relations& relations, Eliminator& eliminator) {
+  const std::vector<Functional> masses = masses_of(part, relations);
   const IdFlags flags{moving_ids(part, relations, eliminator),
-                      massive_ids(part, relations, eliminator)};
+                      massive_ids(part, relations, masses, eliminator)};
   const std::vector<Reference> references = references_of(part, relations);
   for (const Reference& reference : references) drop_loose(reference, flags, eliminator);
-  const std::vector<Matrix6> grams = motion_grams(part, relations, references, eliminator);
+  const std::vector<Matrix6> moved = motion_grams(references, eliminator, [&](const auto& add) {
+    for (int64_t dof = 0; dof < part.numbers.nodal(); ++dof)
+      add({{static_cast<int32_t>(dof)}, {1.0}});
+    for_each_elastic(part, relations, add);
+  });
+  const std::vector<Matrix6> mass = motion_grams(references, eliminator, [&](const auto& add) {
+    for (const Functional& one : masses) add(one);
+    for_each_row(part, relations, true, add);
+  });
   Motions motions;
   for (size_t k = 0; k < references.size(); ++k)
-    omit_still_rotations(references[k], grams[k], flags, eliminator, motions);
+    omit_still_rotations(references[k], moved[k], mass[k], eliminator, motions);
   return motions;
 }
 

@@ -81,6 +81,7 @@ Recipe Resolver::resolve(const recipe::File& file) {
   out.equations = each(file.equations, &Resolver::equation);
   out.springs = each(file.springs, &Resolver::spring);
   out.matrices = each(file.matrices, &Resolver::matrix);
+  for (size_t k = 0; k < file.beams.size(); ++k) beam(file.beams[k], k + 1, out);
   out.straight_edges = each(file.straight_edges, &Resolver::straight_edges);
   out.ties = each(file.ties, &Resolver::tie);
   out.ties = joined(std::move(out.ties), each(file.bolts, &Resolver::bolt));

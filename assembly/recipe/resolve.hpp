@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A fe.toml on its mesh, table by table: names are looked up and values checked that need the mesh.
-// resolve_joints.cpp, resolve_sets.cpp, resolve_heat.cpp and resolve_loads.cpp each have some
-// tables.
+// resolve_beams.cpp, resolve_joints.cpp, resolve_sets.cpp, resolve_heat.cpp and resolve_loads.cpp
+// each have some tables.
 #include <filesystem>
 #include <set>
 #include <string>
@@ -38,6 +38,8 @@ class Resolver {
   CouplingSpec coupling(const recipe::Coupling& coupling, size_t number);
   EquationSpec equation(const recipe::Equation& equation, size_t number);
   SpringSpec spring(const recipe::Spring& spring, size_t number);
+  /// The stiffness and the mass of a beam between the points of `out`.
+  void beam(const recipe::Beam& beam, size_t number, Recipe& out) const;
   MatrixSpec matrix(const recipe::Matrix& matrix, size_t number);
   StraightEdgesSpec straight_edges(const recipe::StraightEdges& edges, size_t number);
   TieSpec tie(const recipe::Tie& tie, size_t number);

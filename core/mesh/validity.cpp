@@ -5,7 +5,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <mutex>
+#include <tuple>
 
+#include "core/base/threads.hpp"
 #include "core/mesh/cube_bernstein.hpp"
 #include "core/mesh/quadrature.hpp"
 #include "core/mesh/shape.hpp"
@@ -228,20 +231,28 @@ int32_t cell_label(const CellBlock& block, Eigen::Index cell) {
 
 ValidityReport check_validity(const Mesh& mesh) {
   ValidityReport report;
+  std::mutex merging;
   for (size_t b = 0; b < mesh.cells.size(); ++b) {
     const CellBlock& block = mesh.cells[b];
-    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-      const CellNodes x = cell_nodes(mesh, block, c);
-      const double ratio = jacobian_bounds(block.type, x).ratio();
-      report.min_ratio = std::min(report.min_ratio, ratio);
-      if (ratio > 0.0) continue;
-      const Eigen::Vector3d centre = x.topRows(traits(block.type).corners).colwise().mean();
-      report.invalid.push_back(
-          {static_cast<int32_t>(b), static_cast<int32_t>(c), cell_label(block, c), centre, ratio});
-    }
+    parallel_pieces(block.nodes.rows(), [&](int64_t begin, int64_t end) {
+      ValidityReport piece;
+      for (int64_t c = begin; c < end; ++c) {
+        const CellNodes x = cell_nodes(mesh, block, c);
+        const double ratio = jacobian_bounds(block.type, x).ratio();
+        piece.min_ratio = std::min(piece.min_ratio, ratio);
+        if (ratio > 0.0) continue;
+        const Eigen::Vector3d centre = x.topRows(traits(block.type).corners).colwise().mean();
+        piece.invalid.push_back({static_cast<int32_t>(b), static_cast<int32_t>(c),
+                                 cell_label(block, c), centre, ratio});
+      }
+      const std::lock_guard lock(merging);
+      report.min_ratio = std::min(report.min_ratio, piece.min_ratio);
+      report.invalid.insert(report.invalid.end(), piece.invalid.begin(), piece.invalid.end());
+    });
   }
-  std::sort(report.invalid.begin(), report.invalid.end(),
-            [](const InvalidCell& a, const InvalidCell& b) { return a.ratio < b.ratio; });
+  std::ranges::sort(report.invalid, {}, [](const InvalidCell& bad) {
+    return std::tuple(bad.ratio, bad.block, bad.cell);
+  });
   return report;
 }
 

@@ -79,6 +79,7 @@ const Keys<File>& file_keys() {
         key.tables("coupling", file.couplings, coupling_keys());
         key.tables("equation", file.equations, equation_keys());
         key.tables("spring", file.springs, spring_keys());
+        key.tables("beam", file.beams, beam_keys());
         key.tables("matrix", file.matrices, matrix_keys());
         key.tables("straight_edges", file.straight_edges, straight_edges_keys());
         key.tables("tie", file.ties, tie_keys());

@@ -4,6 +4,7 @@
 // metres. Readers of decks fill it, clatter-assembly reads it; rows of keys (keys.hpp) give and
 // take its text. assembly/README.md documents the file.
 #include <Eigen/Core>
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -124,6 +125,36 @@ struct Matrix {
   std::string name;
   std::vector<Term> terms;   // one per row, without coefficients
   std::vector<double> K, M;  // one of them: lower triangle by rows [N/m, N, N m], [kg, kg m, kg m2]
+};
+
+/// A section of a beam about its centroid, y and z across it.
+struct BeamSection {
+  Source source{};
+  double at = 0.0;                       // share of the length from the first point
+  double area = 0.0;                     // [m2]
+  double I1 = 0.0, I2 = 0.0, I12 = 0.0;  // int y^2, z^2, y z dA [m4]
+  double J = 0.0;                        // torsion [m4]
+  double line_mass = 0.0;                // beside the material's [kg/m]
+};
+
+/// [[beam]]: a straight beam between two points (Timoshenko), with or without bending.
+struct Beam {
+  Source source{};
+  std::string name{};
+  std::vector<std::string> points{};    // two
+  double E = 0.0, G = 0.0;              // [Pa]
+  double rho = 0.0;                     // [kg/m3]
+  std::vector<double> shear_factors{};  // k of k G A along y, z; empty: rigid in shear
+  std::optional<Eigen::Vector3d> y{};   // a direction in the plane of x and y
+  std::optional<Eigen::Vector3d> offset_a{}, offset_b{};  // of its ends from the points [m]
+  std::vector<int> released_a{}, released_b{};            // along its axes
+  std::vector<BeamSection> sections{};
+
+  bool has_mass() const {
+    return std::ranges::any_of(sections, [this](const BeamSection& section) {
+      return rho * section.area + section.line_mass > 0.0;
+    });
+  }
 };
 
 /// [[straight_edges]]: mid-side nodes that move with the mean of the two ends of their edge.
@@ -290,6 +321,7 @@ struct File {
   std::vector<Coupling> couplings;
   std::vector<Equation> equations;
   std::vector<Spring> springs;
+  std::vector<Beam> beams;
   std::vector<Matrix> matrices;
   std::vector<StraightEdges> straight_edges;
   std::vector<Tie> ties, bolts;

@@ -18,6 +18,7 @@ const Keys<Support>& support_keys();
 const Keys<Coupling>& coupling_keys();
 const Keys<Equation>& equation_keys();
 const Keys<Spring>& spring_keys();
+const Keys<Beam>& beam_keys();
 const Keys<Matrix>& matrix_keys();
 const Keys<StraightEdges>& straight_edges_keys();
 const Keys<Tie>& tie_keys();
@@ -66,12 +67,13 @@ std::vector<int> read_directions(const Config& table, const std::string& key);
 /// ["x", "rz"]; "" for none.
 std::string directions_text(const std::vector<int>& directions);
 
-/// The row `directions`.
+/// The row `directions`, or another name.
 template <class Rows>
-Row directions(Rows& key, std::vector<int>& at, std::string meaning) {
+Row directions(Rows& key, std::vector<int>& at, std::string meaning,
+               std::string name = "directions") {
   return key
       .value(
-          "directions", at, "letters as \"xyz\", or a list of x, y, z, rx, ry, rz",
+          std::move(name), at, "letters as \"xyz\", or a list of x, y, z, rx, ry, rz",
           std::move(meaning),
           [](const Config& table, const std::string& name, std::vector<int>& found) {
             found = read_directions(table, name);

@@ -73,6 +73,7 @@ std::string summary_of(const Deck& deck) {
       {deck.bolts.size(), "bolts"},
       {deck.equations.size(), "equations"},
       {deck.springs.size(), "springs"},
+      {deck.beams.size(), "beams"},
       {deck.masses.size(), "masses"},
       {deck.steps.size(), "steps"}};
   std::vector<std::string> words;

@@ -15,6 +15,7 @@
 
 #include "core/base/matrix.hpp"
 #include "core/mesh/mesh.hpp"
+#include "core/recipe/recipe.hpp"
 
 namespace clatter::mesh::deck {
 
@@ -126,6 +127,11 @@ struct Spring {
   std::vector<Equation::Term> terms;
 };
 
+/// Bar, beam or truss between two nodes or points. The position in the deck is its source.
+struct Beam : recipe::Beam {
+  std::array<NodeIndex, 2> ends{};
+};
+
 struct Mass {
   std::string where;
   NodeIndex node_index = 0;
@@ -215,6 +221,7 @@ struct Deck {
   std::vector<Bolt> bolts;
   std::vector<Equation> equations;
   std::vector<Spring> springs;
+  std::vector<Beam> beams;
   std::vector<Mass> masses;
   std::vector<NodalMatrix> matrices;
   std::vector<Support> supports;  // of the entire model

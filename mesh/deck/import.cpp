@@ -71,8 +71,10 @@ Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
 }
 
 void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where, bool say_notes) {
-  if (deck.mesh.cell_count() == 0 && deck.springs.empty() && deck.matrices.empty())
-    throw InputError(fmt::format("{}: found no solid cells and no springs, expected some", where));
+  if (deck.mesh.cell_count() == 0 && deck.springs.empty() && deck.matrices.empty() &&
+      deck.beams.empty())
+    throw InputError(
+        fmt::format("{}: found no solid cells, beams and springs, expected some", where));
   std::ranges::move(repair_cells(deck.mesh, where), std::back_inserter(deck.renumbered));
   for (const Support& retained : deck.retained)
     if (!retained.system.empty())

@@ -38,6 +38,21 @@ void convert_matrices(Deck& deck, const UnitSystem& units) {
   }
 }
 
+void convert_beam(Beam& beam, const UnitSystem& units) {
+  const double area = units.length * units.length;
+  beam.E *= units.pressure();
+  beam.G *= units.pressure();
+  beam.rho *= units.mass / (area * units.length);
+  for (auto* offset : {&beam.offset_a, &beam.offset_b})
+    if (*offset) **offset *= units.length;
+  for (recipe::BeamSection& section : beam.sections) {
+    section.area *= area;
+    for (double* moment : {&section.I1, &section.I2, &section.I12, &section.J})
+      *moment *= area * area;
+    section.line_mass *= units.mass / units.length;
+  }
+}
+
 bool is_rotation(const Support& support) { return (support.dofs & kTranslations) == 0; }
 
 void convert_supports(std::vector<Support>& supports, const UnitSystem& units) {
@@ -75,6 +90,7 @@ void convert_units(Deck& deck, const UnitSystem& units) {
     for (Equation::Term& term : spring.terms)  // lever arms
       if (!turns && term.direction >= 3) term.coefficient *= units.length;
   }
+  for (Beam& beam : deck.beams) convert_beam(beam, units);
   for (Mass& mass : deck.masses) {
     mass.mass *= units.mass;
     mass.inertia *= units.mass * units.length * units.length;

@@ -141,12 +141,12 @@ TEST(CliMesh, CheckListsADeckAndWritesNothing) {
   EXPECT_NE(read.out.find("4  card GRID"), std::string::npos) << read.out;
   EXPECT_NE(read.out.find("is read: nodes: 4, cells: 1"), std::string::npos) << read.out;
 
-  std::ofstream(deck) << tet << "CBAR,1,1,1,2\nENDDATA\n";
+  std::ofstream(deck) << tet << "CBEND,1,1,1,2\nENDDATA\n";
   const Outcome refused = run(folder, deck + " --check");
   EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.out.find("card CBAR"), std::string::npos) << refused.out;
+  EXPECT_NE(refused.out.find("card CBEND"), std::string::npos) << refused.out;
   EXPECT_NE(refused.err.find("1 row is refused, see the table"), std::string::npos) << refused.err;
-  EXPECT_EQ(run(folder, deck + " --check --ignore CBAR").code, 0);
+  EXPECT_EQ(run(folder, deck + " --check --ignore CBEND").code, 0);
   const Outcome json = run(folder, deck + " --check --json");
   EXPECT_EQ(json.code, 2);
   EXPECT_EQ(json.out.find("{\"rows\": ["), 0u) << json.out;

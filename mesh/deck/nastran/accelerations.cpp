@@ -50,6 +50,10 @@ Eigen::Matrix3Xd accelerations_of(Model& model, const RawAcceleration& raw) {
 
 void add_accelerations(Model& model, Step& step, const RawAcceleration& raw, double factor) {
   const Eigen::Matrix3Xd a = factor * accelerations_of(model, raw);
+  if (std::ranges::any_of(model.deck.beams, [](const Beam& beam) { return beam.has_mass(); }))
+    model.source.fail(raw.origin,
+                      "ACCEL: found bars with mass, whose accelerations it cannot give, expected a "
+                      "GRAV");
   if (!a.allFinite()) model.source.fail(raw.origin, "ACCEL: its numbers are too large");
   const NodeIndex nodes = model.node_map.node_count();
   if (step.accelerations.rows() == 0) step.accelerations = RowMatrix::Zero(nodes, 3);

@@ -51,6 +51,8 @@ std::vector<NodeIndex> indices_of(const Distributing& one) {
   return all;
 }
 
+std::vector<NodeIndex> indices_of(const Beam& beam) { return {beam.ends[0], beam.ends[1]}; }
+
 /// Equation, Spring, NodalMatrix.
 template <class Relation>
 std::vector<NodeIndex> indices_of(const Relation& relation) {
@@ -66,6 +68,7 @@ class Loose {
     join_all(deck_.distributing);
     join_all(deck_.equations);
     join_all(deck_.springs);
+    join_all(deck_.beams);
     join_all(deck_.matrices);
     const NodeIndex n = model.node_map.node_count();
     std::vector<size_t> lost;
@@ -99,6 +102,7 @@ class Loose {
     add(count(deck_.distributing), "RBE3");
     add(count(deck_.springs), "springs");
     add(count(deck_.equations), "equations");
+    add(count(deck_.beams), "bars");
     add(count(deck_.matrices), "matrices");
     int64_t loads = model_.lost_loads;
     for (const Step& step : deck_.steps)
@@ -122,6 +126,7 @@ class Loose {
     erase(deck_.distributing);
     erase(deck_.equations);
     erase(deck_.springs);
+    erase(deck_.beams);
     erase(deck_.matrices);
     drop_from(deck_.supports);
     drop_from(deck_.retained);
@@ -197,6 +202,7 @@ class Loose {
     use_all(deck_.distributing);
     use_all(deck_.equations);
     use_all(deck_.springs);
+    use_all(deck_.beams);
     use_all(deck_.matrices);
     for (const Mass& mass : deck_.masses) use(mass.node_index);
   }

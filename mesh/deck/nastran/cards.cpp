@@ -11,6 +11,8 @@ namespace {
 
 constexpr const char* kRetained = "boundary DoFs of a condensation";
 constexpr const char* kSystem = "coordinate system";
+constexpr const char* kBeam = "bar, beam or truss between two grids";
+constexpr const char* kBeamSection = "section and material of bars";
 constexpr const char* kCell = "cells, with any mid-side nodes or none";
 constexpr const char* kSkin = "surface where it is a face of a solid, else refused";
 constexpr const char* kShell = "of skins: their stiffness and mass are left out with a line";
@@ -29,11 +31,12 @@ constexpr const char* kSuper = "of the reduction in Nastran";
 
 // Why cards are refused, and the remedy.
 constexpr const char* kBars =
-    "no bars yet; ignore = [\"{0}\"] drops their stiffness and mass: add what matters of them to "
-    "the "
-    "fe.toml as [[spring]] and [[point_mass]]";
+    "no curved bars; ignore = [\"{0}\"] drops their stiffness and mass: CBAR along chords replace "
+    "them";
 constexpr const char* kShells = "no shells yet; ignore = [\"{0}\"] drops their stiffness and mass";
-constexpr const char* kBarLoads = "no bars yet; ignore = [\"{0}\"] drops these loads";
+constexpr const char* kBarLoads =
+    "loads along bars are not read; ignore = [\"{0}\"] drops them: FORCE and MOMENT on their grids "
+    "replace them";
 constexpr const char* kContact =
     "contact that opens is not linear; ignore = [\"{0}\"] leaves both sides free of each other: a "
     "[[tie]] of the fe.toml joins them";
@@ -71,7 +74,7 @@ constexpr std::array kRoles = {
     passes("ACMODL", kFluid),
     reads("ASET", read_aset, 8, kRetained),
     reads("ASET1", read_aset1, 0, kRetained),
-    passes("BAROR", kUnused),
+    reads("BAROR", read_baror, 8, "defaults of CBAR"),
     refuses("BCBODY", kContact, 0, 0),
     refuses("BCBODY1", kContact, 0, 0),
     passes("BCGRID", kContactPart),
@@ -88,7 +91,7 @@ constexpr std::array kRoles = {
     passes("BCTPARA", kContactPart),
     passes("BCTPARM", kContactPart),
     refuses("BCTSET", kContactSet, 0, 0),
-    passes("BEAMOR", kUnused),
+    reads("BEAMOR", read_baror, 8, "defaults of CBEAM"),
     passes("BFRIC", kContactPart),
     reads("BGSET", read_bgset, 0, "ties"),
     passes("BLSEG", kContactPart),
@@ -98,8 +101,8 @@ constexpr std::array kRoles = {
     passes("BSURF", kContactPart),
     reads("BSURFS", read_bsurfs, 0, "surface of a tie"),
     passes("BWIDTH", kContactPart),
-    refuses("CBAR", kBars, 2, 2),
-    refuses("CBEAM", kBars, 2, 2),
+    Role{"CBAR", Fate::kRead, read_cbar, 16, 2, 2, kBeam},
+    Role{"CBEAM", Fate::kRead, read_cbar, 24, 2, 2, kBeam},
     refuses("CBEAM3", kBars, 2, 3),
     refuses("CBEND", kBars, 2, 2),
     reads("CBUSH", read_cbush, 16, "springs along three axes and about them"),
@@ -122,7 +125,7 @@ constexpr std::array kRoles = {
     passes("CMSMETHD", kSuper),
     reads("CONM1", read_conm1, 24, "mass matrix of a grid"),
     reads("CONM2", read_conm2, 16, "mass with inertia and offset"),
-    refuses("CONROD", kBars, 1, 2),
+    Role{"CONROD", Fate::kRead, read_conrod, 8, 1, 2, kBeam},
     reads("CORD1C", read_cord1, 8, kSystem),
     reads("CORD1R", read_cord1, 8, kSystem),
     reads("CORD1S", read_cord1, 8, kSystem),
@@ -135,7 +138,7 @@ constexpr std::array kRoles = {
     reads("CQUAD4", read_skin, 16, kSkin),
     reads("CQUAD8", read_skin, 24, kSkin),
     reads("CQUADR", read_skin, 16, kSkin),
-    refuses("CROD", kBars, 2, 2),
+    Role{"CROD", Fate::kRead, read_crod, 8, 2, 2, kBeam},
     refuses("CSEAM", kWelds, 0, 0),
     reads("CSET", read_aset, 8, kRetained),
     reads("CSET1", read_aset1, 0, kRetained),
@@ -145,7 +148,7 @@ constexpr std::array kRoles = {
     reads("CTRIA3", read_skin, 16, kSkin),
     reads("CTRIA6", read_skin, 16, kSkin),
     reads("CTRIAR", read_skin, 16, kSkin),
-    refuses("CTUBE", kBars, 2, 2),
+    Role{"CTUBE", Fate::kRead, read_crod, 8, 2, 2, kBeam},
     passes("CVISC", kDampers),
     refuses("CWELD", kWelds, 0, 0),
     passes("DAREA", kDynamic),
@@ -236,11 +239,11 @@ constexpr std::array kRoles = {
          "WTMASS, COUPMASS, CK2, CM2, INREL; ALPHA1 and ALPHA2 are offered as damping; others are "
          "passed "
          "over"},
-    passes("PBAR", kUnused),
-    passes("PBARL", kUnused),
+    reads("PBAR", read_pbar, 24, kBeamSection),
+    reads("PBARL", read_pbarl, 0, kBeamSection),
     passes("PBCOMP", kUnused),
-    passes("PBEAM", kUnused),
-    passes("PBEAML", kUnused),
+    reads("PBEAM", read_pbeam, 0, kBeamSection),
+    reads("PBEAML", read_pbeaml, 0, kBeamSection),
     passes("PBEND", kUnused),
     reads("PBUSH", read_pbush, 0, "stiffness of bushes"),
     passes("PBUSHT", kDynamic),
@@ -264,11 +267,11 @@ constexpr std::array kRoles = {
     reads("PLPLANE", read_other_property, 8, "named where a solid has it"),
     reads("PLSOLID", read_other_property, 8, "named where a solid has it"),
     reads("PMASS", read_pmass, 8, "mass of CMASS1 and CMASS3"),
-    passes("PROD", kUnused),
+    reads("PROD", read_prod, 8, kBeamSection),
     passes("PSHEAR", kUnused),
     reads("PSHELL", read_pshell, 16, kShell),
     reads("PSOLID", read_psolid, 8, "region with its material"),
-    passes("PTUBE", kUnused),
+    reads("PTUBE", read_ptube, 8, kBeamSection),
     passes("PVISC", kDampers),
     passes("PWELD", kUnused),
     passes("QSET", kSuper),

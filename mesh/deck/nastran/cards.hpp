@@ -31,8 +31,10 @@ void read_accel(const Card& card, RawDeck& raw);
 void read_accel1(const Card& card, RawDeck& raw);
 void read_aset(const Card& card, RawDeck& raw);   // ASET, BSET, CSET
 void read_aset1(const Card& card, RawDeck& raw);  // ASET1, BSET1, CSET1
+void read_baror(const Card& card, RawDeck& raw);  // BAROR, BEAMOR
 void read_bgset(const Card& card, RawDeck& raw);
 void read_bsurfs(const Card& card, RawDeck& raw);
+void read_cbar(const Card& card, RawDeck& raw);  // CBAR, CBEAM
 void read_cbush(const Card& card, RawDeck& raw);
 void read_celas1(const Card& card, RawDeck& raw);  // CELAS1, CMASS1
 void read_celas2(const Card& card, RawDeck& raw);  // CELAS2, CMASS2
@@ -44,6 +46,8 @@ void read_conm1(const Card& card, RawDeck& raw);
 void read_conm2(const Card& card, RawDeck& raw);
 void read_cord1(const Card& card, RawDeck& raw);  // CORD1R, CORD1C, CORD1S
 void read_cord2(const Card& card, RawDeck& raw);  // CORD2R, CORD2C, CORD2S
+void read_conrod(const Card& card, RawDeck& raw);
+void read_crod(const Card& card, RawDeck& raw);  // CROD, CTUBE
 void read_dmig(const Card& card, RawDeck& raw);
 void read_eigr(const Card& card, RawDeck& raw);
 void read_eigrl(const Card& card, RawDeck& raw);
@@ -61,6 +65,10 @@ void read_mpcadd(const Card& card, RawDeck& raw);
 void read_other_material(const Card& card, RawDeck& raw);  // the same for materials
 void read_other_property(const Card& card,
                          RawDeck& raw);  // properties that solids cannot have here
+void read_pbar(const Card& card, RawDeck& raw);
+void read_pbarl(const Card& card, RawDeck& raw);
+void read_pbeam(const Card& card, RawDeck& raw);
+void read_pbeaml(const Card& card, RawDeck& raw);
 void read_pbush(const Card& card, RawDeck& raw);
 void read_pelas(const Card& card, RawDeck& raw);
 void read_pgap(const Card& card, RawDeck& raw);
@@ -68,8 +76,10 @@ void read_pload(const Card& card, RawDeck& raw);
 void read_pload2(const Card& card, RawDeck& raw);
 void read_pload4(const Card& card, RawDeck& raw);
 void read_pmass(const Card& card, RawDeck& raw);
+void read_prod(const Card& card, RawDeck& raw);
 void read_pshell(const Card& card, RawDeck& raw);  // PSHELL, PCOMP, PCOMPG
 void read_psolid(const Card& card, RawDeck& raw);
+void read_ptube(const Card& card, RawDeck& raw);
 void read_rbar(const Card& card, RawDeck& raw);
 void read_rbar1(const Card& card, RawDeck& raw);  // RBAR1, RJOINT
 void read_rbe1(const Card& card, RawDeck& raw);

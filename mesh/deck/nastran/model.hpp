@@ -88,6 +88,8 @@ void build_equations(Model& model);
 void build_springs(Model& model);
 /// CBUSH with their PBUSH, CGAP with their PGAP -> springs.
 void build_bushes(Model& model);
+/// CBAR, CBEAM, CROD, CONROD, CTUBE with their properties -> beams.
+void build_bars(Model& model);
 /// CONM1 and the DMIG of K2GG and M2GG.
 void build_matrices(Model& model);
 /// BGSET -> ties.

@@ -4,10 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "core/recipe/recipe.hpp"
 #include "mesh/deck/chunked.hpp"
 #include "mesh/deck/nastran/card.hpp"
 #include "mesh/deck/nastran/control.hpp"
@@ -195,6 +197,27 @@ struct RawDirect {
   std::vector<Entry> entries;
 };
 
+struct RawBar {      // CBAR, CBEAM, CROD, CONROD, CTUBE
+  std::string name;  // "cbar_5"
+  Origin origin = 0;
+  int32_t property = 0;
+  std::array<int32_t, 2> grids{};
+  int32_t orientation_grid = 0;  // G0
+  std::optional<std::array<double, 3>> orientation{};
+  bool orientation_is_basic = false, offset_is_basic = false;
+  std::array<DofMask, 2> released{};
+  std::array<std::array<double, 3>, 2> offset{};
+};
+
+struct RawBarProperty {  // PBAR, PBARL, PBEAM, PBEAML, PROD, PTUBE; CONROD
+  std::string card;      // its name
+  Origin origin = 0;
+  int32_t material = 0;
+  std::string refusal{};                        // why no bar can have it; "" for none
+  std::vector<double> shear_factors{};          // along y and z, or none
+  std::vector<recipe::BeamSection> sections{};  // in the deck's units
+};
+
 struct RawGlue {  // BGSET
   struct Pair {
     int32_t source = 0, target = 0;
@@ -349,6 +372,9 @@ struct RawDeck {
   std::vector<RawSpring> springs;              // and scalar masses
   std::map<int32_t, double> spring_stiffness;  // PELAS
   std::map<int32_t, double> scalar_masses;     // PMASS
+  std::vector<RawBar> bars;
+  std::optional<RawBar> bar_default, beam_default;  // BAROR, BEAMOR
+  std::map<int32_t, RawBarProperty> bar_properties;
   std::vector<RawBush> bushes;
   std::map<int32_t, RawBushProperty> bush_properties;
   std::map<int32_t, RawGapProperty> gap_properties;

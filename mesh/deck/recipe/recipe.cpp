@@ -42,6 +42,10 @@ class RecipeMaker {
       file_.equations.push_back({Source(equation.where), terms(equation.terms)});
     for (const Spring& spring : deck_.springs)
       file_.springs.push_back({Source(spring.where), "", spring.stiffness, terms(spring.terms)});
+    for (const Beam& beam : deck_.beams) {
+      file_.beams.push_back(beam);
+      file_.beams.back().points = {names_.reference(beam.ends[0]), names_.reference(beam.ends[1])};
+    }
     for (const NodalMatrix& matrix : deck_.matrices) add_matrix(matrix);
     masses();
     retained();

@@ -60,14 +60,14 @@ TEST(Check, AReadDeckIsListedByNameWithCountLineAndMeaning) {
 
 TEST(Check, ARefusedCardHasItsLineAndWhatToWriteInstead) {
   const std::string text =
-      kCase + kTet + kLoads + "CBAR,7,1,1,2\nCBAR,8,1,2,3\nCQUAD4,9,1,1,2,3,4\n";
+      kCase + kTet + kLoads + "CBEND,7,1,1,2\nCBEND,8,1,2,3\nCQUAD4,9,1,1,2,3,4\n";
   const CheckedDeck checked = check("c.bdf", text + "SPC1,1,129,1\nENDDATA\n", {"CQUAD4"});
   EXPECT_EQ(checked.refused, 2);
   EXPECT_EQ(checked.summary, "");
-  EXPECT_EQ(row(checked, "CBAR").count, 2);
-  EXPECT_EQ(row(checked, "CBAR").fate, "refused");
-  EXPECT_THAT(row(checked, "CBAR").where, HasSubstr("c.bdf:17"));
-  EXPECT_THAT(row(checked, "CBAR").remark, HasSubstr("no bars yet; ignore = [\"CBAR\"]"));
+  EXPECT_EQ(row(checked, "CBEND").count, 2);
+  EXPECT_EQ(row(checked, "CBEND").fate, "refused");
+  EXPECT_THAT(row(checked, "CBEND").where, HasSubstr("c.bdf:17"));
+  EXPECT_THAT(row(checked, "CBEND").remark, HasSubstr("no curved bars; ignore = [\"CBEND\"]"));
   EXPECT_EQ(row(checked, "CQUAD4").fate, "ignored");
   const CheckedRow& last = checked.rows.back();  // the field of one of several SPC1
   EXPECT_EQ(last.fate, "refused");

@@ -168,8 +168,8 @@ TEST(NastranCards, RefusedOnesSayWhatReplacesThem) {
         << card.name;
   }
   EXPECT_THAT(
-      refusal(kTet + "CBAR,8,1,1,2\nCBAR,9,1,1,2\n"),
-      HasSubstr("card CBAR (2 times) is not supported: no bars yet; ignore = [\"CBAR\"] drops "
+      refusal(kTet + "CBEND,8,1,1,2\nCBEND,9,1,1,2\n"),
+      HasSubstr("card CBEND (2 times) is not supported: no curved bars; ignore = [\"CBEND\"] drops "
                 "their stiffness and mass"));
   EXPECT_THAT(refusal(kTet + "FOO,1\n"), HasSubstr("skips it, with all that it adds to the model"));
 }

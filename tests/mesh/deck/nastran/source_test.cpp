@@ -72,8 +72,8 @@ TEST_F(NastranInclude, IsRelativeToTheIncludingFileThenToThoseAboveIt) {
 
 TEST_F(NastranInclude, LinesAreThoseOfTheFileTheyAreIn) {
   write_parts("INCLUDE 'sub/nodes.blk'\n");
-  write("sub/nodes.blk", "$\nGRID,3,,0.,1.,0.\nCBAR,1\nGRID,4,,0.,0.,1.\n");
-  EXPECT_THAT(refusal_of("top.bdf"), StartsWith("sub/nodes.blk:3: card CBAR is not supported"));
+  write("sub/nodes.blk", "$\nGRID,3,,0.,1.,0.\nCBEND,1\nGRID,4,,0.,0.,1.\n");
+  EXPECT_THAT(refusal_of("top.bdf"), StartsWith("sub/nodes.blk:3: card CBEND is not supported"));
   write("sub/nodes.blk", "GRID,3,,0.,1.,0.\n");
   EXPECT_THAT(refusal_of("top.bdf"), StartsWith("top.bdf:6: cell 1: found no GRID 4"));
 }
