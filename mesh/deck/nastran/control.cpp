@@ -116,6 +116,7 @@ class ControlParser {
         begin_bulk(command);
         return finish();
       }
+      if (part_ == Part::kExecutive && begins_cases(command)) part_ = Part::kCase;
       const std::string text(*line);
       const char* kind = part_ == Part::kExecutive ? "executive" : "case control";
       Content& content = refusals_.contents().count(kind, command.name, source_, source_.origin());
@@ -145,6 +146,12 @@ class ControlParser {
       part_ = Part::kCase;
     }
     return part_ != Part::kUnknown || command.name.starts_with("BEGIN");
+  }
+
+  // A command of case control that ends the executive part without CEND.
+  static bool begins_cases(const Command& command) {
+    return (command.assigned || command.name == "SUBCASE" || command.name == "SET") &&
+           !is_one_of(command.name, kHarmlessExecutive);
   }
 
   void begin_bulk(const Command& command) {

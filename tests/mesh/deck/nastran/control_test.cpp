@@ -58,6 +58,13 @@ TEST(NastranControl, ACaseControlWithoutSpcHoldsNothing) {
   EXPECT_TRUE(read_deck("SOL 103\nCEND\nECHO=NONE\nBEGIN BULK\n" + kTet + kSpcs).supports.empty());
 }
 
+TEST(NastranControl, CaseControlMayBeginWithoutCend) {
+  const Deck deck =
+      read_deck("SOL 101\nSET 1 = 2\nSUBCASE 1\n SPC = 1\nBEGIN BULK\n" + kTet + kSpcs);
+  EXPECT_EQ(deck.steps.size(), 1u);
+  EXPECT_FALSE(deck.steps.at(0).supports.empty() && deck.supports.empty());
+}
+
 TEST(NastranControl, WithoutCaseControlSeveralSetsAreNamed) {
   EXPECT_EQ(read_deck(kTet + kSpcs).supports.size(), 2u);  // SPCADD 9 is the one on top
   EXPECT_THAT(refusal(kTet + "SPC1,1,3,1\nSPC1,2,12,2,3\n"),
