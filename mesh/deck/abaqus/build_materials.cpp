@@ -35,10 +35,11 @@ const Card* first_card(const Model& model, std::string_view key) {
   return nullptr;
 }
 
-using Rows = std::vector<std::pair<double, std::vector<double>>>;  // by temperature, ascending
+using RowsByTemperature =
+    std::vector<std::pair<double, std::vector<double>>>;  // by temperature, ascending
 
 // Interpolates between rows, constant beyond the ends, as CalculiX does.
-std::vector<double> interpolated(const Rows& rows, double temperature) {
+std::vector<double> interpolated(const RowsByTemperature& rows, double temperature) {
   if (temperature <= rows.front().first) return rows.front().second;
   if (temperature >= rows.back().first) return rows.back().second;
   size_t i = 1;
@@ -52,7 +53,8 @@ std::vector<double> interpolated(const Rows& rows, double temperature) {
 }
 
 // Temperature-dependent constants are evaluated at the initial temperature if no step changes it.
-std::vector<double> at_initial_temperature(Model& model, const Card& card, const Rows& rows) {
+std::vector<double> at_initial_temperature(Model& model, const Card& card,
+                                           const RowsByTemperature& rows) {
   for (size_t i = 1; i < rows.size(); ++i) {
     if (!(rows[i].first > rows[i - 1].first)) {
       model.source.fail(card.origin(),
@@ -89,7 +91,7 @@ std::vector<double> constants_of(Model& model, const Card& card, size_t count) {
     model.source.fail(card.origin(), fmt::format("{}: found {} data lines, expected {}",
                                                  card.keyword().name, card.size(), lines));
   }
-  Rows rows;
+  RowsByTemperature rows;
   for (size_t begin = 0; begin < card.size(); begin += lines) {
     std::vector<double> values;
     double temperature = 0.0;

@@ -98,12 +98,14 @@ class Blocks {
 }  // namespace
 
 void build_mesh(Model& model) {
-  if (model.numbering.cells() == 0) {
+  const bool has_lines =
+      std::ranges::any_of(model.numbering.thin(), [](const ThinElement& one) { return !one.face; });
+  if (model.numbering.cells() == 0 && !has_lines) {
     model.refusals.raise();
     std::map<std::string, int64_t> others;
     for (const ThinElement& one : model.numbering.thin()) ++others[one.type];
     throw InputError(
-        fmt::format("{}: found no solid elements{}, expected some of C3D4 C3D5 C3D6 "
+        fmt::format("{}: found no solid elements and no beams{}, expected some of C3D4 C3D5 C3D6 "
                     "C3D8 C3D8I C3D8R C3D10 C3D15 C3D20 C3D20R",
                     model.source.where(model.source.origin()),
                     others.empty() ? "" : fmt::format(" but {}", counted(others))));

@@ -25,6 +25,8 @@ class ThinElements {
   void run() {
     find_sections();
     if (!refuse_structures()) return;
+    for (size_t t = 0; t < all_.size(); ++t)
+      if (is_beam(t)) model_.refusals.attempt([&] { add_beam(model_, all_[t], *section_[t]); });
     name_groups();
     skins_.note(where_of_first());
     note_sections();
@@ -72,9 +74,16 @@ class ThinElements {
     return true;
   }
 
+  bool is_beam(size_t t) const {
+    if (all_[t].face || section_[t] == nullptr) return false;
+    const std::string keyword = folded(section_[t]->keyword().name);
+    return keyword == (all_[t].type.starts_with("T") ? "*SOLIDSECTION" : "*BEAMSECTION");
+  }
+
   // A face without stiffness is only a name; one with a section is refused where no solid has it.
   bool is_structure(size_t t) const {
     if (all_[t].face) return section_[t] != nullptr && !skins_.is_surface(skin_of_[t]);
+    if (is_beam(t)) return false;
     return section_[t] != nullptr || !on_solids(all_[t]);
   }
 

@@ -77,7 +77,7 @@ constexpr std::array kRoles = {
     KeywordRole{"CONTACT PAIR", Role::kModel, "a tie where it is bonded"},
     KeywordRole{"CONTACT PROPERTY ASSIGNMENT", Role::kModel, "decides whether a contact is bonded"},
     KeywordRole{"BEAM GENERAL SECTION", Role::kModel, kThin},
-    KeywordRole{"BEAM SECTION", Role::kModel, kThin},
+    KeywordRole{"BEAM SECTION", Role::kModel, "section and material of B31 and B32"},
     KeywordRole{"MEMBRANE SECTION", Role::kModel, kThin},
     KeywordRole{"SHELL GENERAL SECTION", Role::kModel, kThin},
     KeywordRole{"SHELL SECTION", Role::kModel, kThin},

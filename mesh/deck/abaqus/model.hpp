@@ -76,6 +76,8 @@ void build_nonstructural_mass(Model& model);
 /// Elements of two dimensions that are faces of solids -> Mesh::surfaces, lines of their nodes ->
 /// node sets; others with a section are refused.
 void build_thin(Model& model);
+/// The beam or truss of an element of one dimension with the section `card`; of three nodes two.
+void add_beam(Model& model, const ThinElement& element, const Card& card);
 /// *PRE-TENSION SECTION, before cells are copied: the cut's nodes get copies on one side.
 void cut_bolts(Model& model);
 /// The same cards, after build_surfaces() -> Deck::bolts.

@@ -327,6 +327,10 @@ std::vector<Listed> listed_elements() {
   for (const auto& [name, nodes] : kPointTypes)
     rows.push_back(
         {std::string(name), Fate::kRead, nodes == 1 ? "at one node" : "between two nodes"});
+  for (const char* name : {"B31", "B32", "T3D2", "T3D3"})
+    rows.push_back(
+        {name, Fate::kRead,
+         *name == 'B' ? "beam; with a middle node two" : "truss; with a middle node two"});
   for (const auto& [name, instead] : replaced_types())
     rows.push_back({std::string(name), Fate::kRefused, std::string(instead)});
   return rows;

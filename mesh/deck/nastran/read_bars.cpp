@@ -5,15 +5,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <numbers>
 #include <span>
 
+#include "mesh/deck/bar_shapes.hpp"
 #include "mesh/deck/nastran/cards.hpp"
 
 namespace clatter::mesh::deck::nastran {
 namespace {
-
-using recipe::BeamSection;
 
 std::string name_of(const Card& card) {
   std::string name(card.name());
@@ -56,9 +54,7 @@ RawBarProperty rod(const Card& card, size_t material, double area, double J, dou
   return property;
 }
 
-/// A shape of PBARL and PBEAML. Areas and moments are those of thin or solid rectangles, circles
-/// and rings; torsion by the usual formulas (S. Timoshenko, J. Goodier, "Theory of Elasticity",
-/// section 109; Bredt for closed boxes; sum b t^3 / 3 for open ones).
+/// A shape of PBARL and PBEAML by its dimensions d.
 struct Shape {
   std::string_view name;
   size_t dimensions;
@@ -66,70 +62,27 @@ struct Shape {
   std::array<double, 2> (*shear)(std::span<const double> d, double area);
 };
 
-constexpr double kPi = std::numbers::pi;
-double cube(double x) { return x * x * x; }
-
-BeamSection ring(double outer, double inner) {
-  const double o2 = outer * outer, i2 = inner * inner;
-  const double I = kPi / 4.0 * (o2 * o2 - i2 * i2);
-  return {.area = kPi * (o2 - i2), .I1 = I, .I2 = I, .J = 2.0 * I};
-}
-
-// d: width along z, height along y.
-BeamSection rectangle(std::span<const double> d) {
-  const double a = std::max(d[0], d[1]), b = std::min(d[0], d[1]), q = b / a;
-  return {.area = d[0] * d[1],
-          .I1 = d[0] * cube(d[1]) / 12.0,
-          .I2 = d[1] * cube(d[0]) / 12.0,
-          .J = a * cube(b) * (1.0 / 3.0 - 0.21 * q * (1.0 - q * q * q * q / 12.0))};
-}
-
-// d: width along z, height along y, walls above and below, walls at the sides.
-BeamSection box(std::span<const double> d) {
-  const double w = d[0] - 2.0 * d[3], h = d[1] - 2.0 * d[2];
-  const double mid_w = d[0] - d[3], mid_h = d[1] - d[2];
-  return {.area = d[0] * d[1] - w * h,
-          .I1 = (d[0] * cube(d[1]) - w * cube(h)) / 12.0,
-          .I2 = (d[1] * cube(d[0]) - h * cube(w)) / 12.0,
-          .J = 2.0 * mid_w * mid_w * mid_h * mid_h / (mid_w / d[2] + mid_h / d[3])};
-}
-
-// d: height, width below, width above, web, thickness below, thickness above.
-BeamSection i_shape(std::span<const double> d) {
-  const double web = d[0] - d[4] - d[5];
-  const std::array<std::array<double, 3>, 3> parts = {
-      {{d[1], d[4], 0.5 * d[4]}, {d[3], web, d[4] + 0.5 * web}, {d[2], d[5], d[0] - 0.5 * d[5]}}};
-  BeamSection section;
-  double first = 0.0;
-  for (const auto& [width, height, at] : parts) {
-    section.area += width * height;
-    first += width * height * at;
-    section.I2 += height * cube(width) / 12.0;
-    section.J += std::max(width, height) * cube(std::min(width, height)) / 3.0;
-  }
-  const double centre = first / section.area;
-  for (const auto& [width, height, at] : parts)
-    section.I1 += width * cube(height) / 12.0 + width * height * (at - centre) * (at - centre);
-  return section;
-}
-
 std::array<double, 2> same(double k) { return {k, k}; }
 
 // Shear factors: of ROD that of the printed results of a deck (ssll11a), of others as Nastran has
 // them.
 constexpr std::array kShapes = {
-    Shape{"ROD", 1, [](std::span<const double> d) { return ring(d[0], 0.0); },
+    Shape{"ROD", 1, [](std::span<const double> d) { return ring_section(d[0], 0.0); },
           [](std::span<const double>, double) { return same(6.0 / 7.0); }},
-    Shape{"TUBE", 2, [](std::span<const double> d) { return ring(d[0], d[1]); },
+    Shape{"TUBE", 2, [](std::span<const double> d) { return ring_section(d[0], d[1]); },
           [](std::span<const double>, double) { return same(0.5); }},
-    Shape{"TUBE2", 2, [](std::span<const double> d) { return ring(d[0], d[0] - d[1]); },
+    Shape{"TUBE2", 2, [](std::span<const double> d) { return ring_section(d[0], d[0] - d[1]); },
           [](std::span<const double>, double) { return same(0.5); }},
-    Shape{"BAR", 2, rectangle, [](std::span<const double>, double) { return same(5.0 / 6.0); }},
-    Shape{"BOX", 4, box,
+    Shape{"BAR", 2, [](std::span<const double> d) { return rectangle_section(d[1], d[0]); },
+          [](std::span<const double>, double) { return same(5.0 / 6.0); }},
+    Shape{"BOX", 4, [](std::span<const double> d) { return box_section(d[1], d[0], d[2], d[3]); },
           [](std::span<const double> d, double area) {
             return std::array{2.0 * d[1] * d[3] / area, 2.0 * d[0] * d[2] / area};
           }},
-    Shape{"I", 6, i_shape,
+    Shape{"I", 6,
+          [](std::span<const double> d) {
+            return i_section({d[0], d[1], d[2], d[3], d[4], d[5]});
+          },
           [](std::span<const double> d, double area) {
             return std::array{d[3] * (d[0] - 0.5 * (d[4] + d[5])) / area,
                               5.0 / 6.0 * (d[1] * d[4] + d[2] * d[5]) / area};
@@ -311,7 +264,7 @@ void read_prod(const Card& card, RawDeck& raw) {
 // PID MID OD T NSM OD2.
 void read_ptube(const Card& card, RawDeck& raw) {
   const double outer = 0.5 * card.number(2, "OD"), wall = card.number_or(3, "T", 0.0);
-  const BeamSection section = ring(outer, wall > 0.0 ? outer - wall : 0.0);
+  const BeamSection section = ring_section(outer, wall > 0.0 ? outer - wall : 0.0);
   RawBarProperty property = rod(card, 1, section.area, section.J, not_negative(card, 4, "NSM"));
   if (!card.blank(5) && card.number(5, "OD2") != card.number(2, "OD"))
     property.refusal = "found OD2, expected a tube of one diameter";

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// B31, B32 and T3D2 with their sections.
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "tests/mesh/deck/abaqus/support.hpp"
+
+namespace clatter::mesh::deck::testing {
+namespace {
+
+using Eigen::Vector3d;
+using ::testing::HasSubstr;
+
+const std::string kNodes =
+    "*NODE\n1, 0., 0., 0.\n2, 2., 0., 0.\n3, 4., 0., 0.\n"
+    "*MATERIAL, NAME=Steel\n*ELASTIC\n2.1E11, .3\n*DENSITY\n7850.\n";
+
+std::vector<Beam> beams(const std::string& cards) { return read(kNodes + cards).beams; }
+
+TEST(AbaqusBars, HasItsSectionMaterialAndOrientation) {
+  const auto found = beams(
+      "*ELEMENT, TYPE=B31, ELSET=B\n7, 1, 2\n8, 2, 3\n"
+      "*BEAM SECTION, ELSET=B, MATERIAL=STEEL, SECTION=RECT\n3., 2.\n0., 1., 0.\n");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].name, "B31_7");
+  EXPECT_EQ(found[0].E, 2.1e11);
+  EXPECT_NEAR(found[0].G, 2.1e11 / 2.6, 1e-3);
+  EXPECT_EQ(found[0].rho, 7850.0);
+  EXPECT_EQ(found[0].y.value(), Vector3d::UnitY());
+  EXPECT_EQ(found[0].sections.at(0).area, 6.0);
+  EXPECT_NEAR(found[0].sections.at(0).I1, 2.0 * 27.0 / 12.0, 1e-14);  // 3 high along n1
+  EXPECT_EQ(found[1].ends, (std::array<NodeIndex, 2>{1, 2}));
+}
+
+TEST(AbaqusBars, OfThreeNodesIsTwo) {
+  const auto found = beams(
+      "*ELEMENT, TYPE=B32, ELSET=B\n7, 1, 2, 3\n"
+      "*BEAM SECTION, ELSET=B, MATERIAL=STEEL, SECTION=PIPE\n2., 1.\n");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[1].name, "B32_7b");
+  EXPECT_NEAR(found[0].sections.at(0).area, 3.0 * std::numbers::pi, 1e-14);
+  EXPECT_EQ(found[0].y.value(), -Vector3d::UnitZ());  // n1 without a line
+}
+
+TEST(AbaqusBars, OfABoxHasItsWalls) {
+  const auto found = beams(
+      "*ELEMENT, TYPE=B31, ELSET=B\n7, 1, 2\n"
+      "*BEAM SECTION, ELSET=B, MATERIAL=STEEL, SECTION=BOX\n6., 4., 1., .5, 1., .5\n");
+  EXPECT_NEAR(found.at(0).sections.at(0).area, 24.0 - 4.0 * 3.0, 1e-14);
+}
+
+TEST(AbaqusBars, TrussesHaveAnAreaAlone) {
+  const auto found = beams(
+      "*ELEMENT, TYPE=T3D2, ELSET=T\n7, 1, 2\n*SOLID SECTION, ELSET=T, MATERIAL=Steel\n2.5\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].sections.at(0).area, 2.5);
+  EXPECT_EQ(found[0].sections.at(0).I1, 0.0);
+  EXPECT_FALSE(found[0].y);
+}
+
+TEST(AbaqusBars, WithoutMeaningIsRefusedByLine) {
+  const std::string element = "*ELEMENT, TYPE=B31, ELSET=B\n7, 1, 2\n";
+  const auto refused = [&](const std::string& section) {
+    return refusal(kNodes + element + section);
+  };
+  const std::string head = "*BEAM SECTION, ELSET=B, MATERIAL=STEEL, SECTION=";
+  EXPECT_THAT(refused(""), HasSubstr("deck.inp:11: 1 elements B31 are beams or trusses"));
+  EXPECT_THAT(refused(head + "HEX\n1., 2.\n"), HasSubstr("expected CIRC, RECT, PIPE or BOX"));
+  EXPECT_THAT(refused(head + "CIRC\n0.\n"), HasSubstr("a dimension of 0"));
+  EXPECT_THAT(refused(head + "CIRC\n1.\n1., 0., 0.\n"), HasSubstr("n1 is along an element"));
+  EXPECT_THAT(refused(head + "BOX\n6., 4., 1., .5, 1., .6\n"), HasSubstr("unequal opposite walls"));
+  EXPECT_THAT(refused("*BEAM SECTION, ELSET=B, MATERIAL=Iron, SECTION=CIRC\n1.\n"),
+              HasSubstr("found no *MATERIAL Iron"));
+}
+
+}  // namespace
+}  // namespace clatter::mesh::deck::testing
