@@ -14,6 +14,8 @@ NAVIGATION = {
     "Tutorials": [("docs/tutorial/README.md", "Tutorials"), ("docs/tutorial/1-beam.md", "1. Beam"),
                   ("docs/tutorial/2-cad-part.md", "2. CAD part"), ("docs/tutorial/3-deck.md", "3. Deck"),
                   ("docs/tutorial/4-piston-slap.md", "4. Piston slap"),
+                  ("docs/tutorial/5-timing-drive.md", "5. Timing drive"),
+                  ("docs/tutorial/6-sound.md", "6. Sound and report"),
                   ("docs/tutorial/7-accuracy.md", "7. Accuracy")],
     "Programs": [("mesh/README.md", "mesh"), ("mesh/deck/README.md", "mesh/deck"), ("assembly/README.md", "assembly"),
                  ("modal/README.md", "modal"), ("condense/README.md", "condense"), ("dynamics/README.md", "dynamics"),

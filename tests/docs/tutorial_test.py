@@ -51,6 +51,20 @@ class PistonSlap(Page):
         self.run_page()
 
 
+class TimingDrive(Page):
+    name = "5-timing-drive.md"
+
+    def test_the_page_is_what_its_commands_do(self):
+        self.run_page()
+
+
+class Sound(Page):
+    name = "6-sound.md"
+
+    def test_the_page_is_what_its_commands_do(self):
+        self.run_page()
+
+
 class Accuracy(Page):
     name = "7-accuracy.md"
 
