@@ -7,7 +7,7 @@ import numpy as np
 from .artefact import Artefact, dataset, sha256, text
 from .chains import Chain, read_chain
 from .chains import names as chain_names
-from .errors import BadArtefact
+from .errors import BadArtefact, Refused
 from .films import Film, contacts
 from .rom import Rom
 
@@ -134,12 +134,29 @@ class Run(Artefact):
     def table(self, body=None, quantity="displacement"):
         """All histories over `history_time`, which is not equally spaced, or all coordinates of a body over `time`: a pandas.DataFrame whose index is the time [s],
         without pandas a structured array whose first field is `time` [s]. Units of the columns are in `units`."""
+        return table_of({name: values for name, (values, _) in self._columns(body, quantity).items()})
+
+    def dataset(self, body=None, quantity="displacement"):
+        """The same as an xarray.Dataset over the coordinate `time` [s], with the crank angle [deg] as a second one where there is one; each variable has its
+        attribute `units`. Refused without xarray."""
+        try:
+            import xarray  # here, because it loads pandas
+        except ImportError as error:
+            raise Refused(f"{self.path.name}: dataset needs xarray: apt-get install python3-xarray") from error
+        columns = {name: ("time", values, {"units": unit}) for name, (values, unit) in self._columns(body, quantity).items()}
+        axes = {name: columns.pop(name) for name in AXES if name in columns}
+        return xarray.Dataset(columns, axes)
+
+    def _columns(self, body, quantity):
+        """{name: (values, unit)}, the time first."""
         if body is None:
-            return table_of({"time": self.history_time, **{name: dataset(self.file, f"history/{name}")
-                                                          for name in self.file["history"] if name != "time"}})
-        labels = [label for own in self.rom(body).sets.values() for label in own.labels]
-        motions = [self.motion(body, name, quantity) for name in self.rom(body).sets]
-        return table_of({"time": self.time, **dict(zip(labels, np.hstack(motions).T))})
+            histories = self.file.get("history", {})
+            return {"time": (self.history_time, "s"), **{name: (dataset(self.file, f"history/{name}"), text(one.attrs.get("unit", "")))
+                                                        for name, one in histories.items() if name != "time"}}
+        motions = {name: self.motion(body, name, quantity) for name in self.rom(body).sets}
+        _, *units = MOTIONS[quantity]
+        return {"time": (self.time, "s"), **{label: (values, units[int(turns)]) for name, own in self.rom(body).sets.items()
+                                             for label, turns, values in zip(own.labels, own.is_rotation, motions[name].T)}}
 
     @functools.cached_property
     def films(self) -> dict:

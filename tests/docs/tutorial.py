@@ -16,7 +16,8 @@ No other block is allowed; a block may be in a quotation ("> "). `...` as a line
 rest of it. Comments before a block:
 
 - <!-- tolerance 1e-2 -->: largest relative difference of the numbers in it, instead of 1e-3;
-- <!-- exit code 2 -->: its last command ends with this code, and its messages on stderr are shown as well.
+- <!-- exit code 2 -->: its last command ends with this code, and its messages on stderr are shown as well;
+- <!-- needs clatter-condense-mpi -->: the block is left out where this program is missing, and the test then skips at its end.
 
 Words are compared exactly, apart from the width of spaces between them. A number may differ by the tolerance or by one unit of its
 last digit, a whole number only where a tolerance is given. A number below 1e-3 with an exponent is an error or a residue: it may be
@@ -37,7 +38,7 @@ import repository
 
 SOURCE = repository.SOURCE
 BIN = pathlib.Path(os.environ.get("CLATTER_BIN", SOURCE / "build/release/bin"))
-PROGRAMS = [f"clatter-{stage}" for stage in ("mesh", "assembly", "modal", "condense", "dynamics", "recover")]
+PROGRAMS = [f"clatter-{stage}" for stage in ("mesh", "assembly", "modal", "condense", "dynamics", "recover", "condense-mpi", "modal-mpi")]
 LARGEST_PICTURE = 150_000  # bytes
 
 ABSOLUTE = r"(?:file://)?(?<![\w.~*)-])/[\w.-]+/(?:[\w.-]+/)*"
@@ -67,6 +68,7 @@ class Step:
     tolerance: float | None = None
     code: int = 0
     quote: str = ""     # before each line of a block in a quotation
+    needs: str = ""     # a program without which it is left out
 
 
 def steps_of(page):
@@ -75,12 +77,11 @@ def steps_of(page):
     for block in BLOCK.finditer(page):
         line = page.count("\n", 0, block.start("body"))
         between, end = page[end:block.start()], block.end()
-        marks = dict(re.findall(r"<!-- (tolerance|exit code) (\S+) -->", between))
+        marks = dict(re.findall(r"<!-- (tolerance|exit code|needs) (\S+) -->", between))
         if block["file"]:
             found.append(Step(line, file=block["file"], text=block["body"]))
         elif block["kind"] == "console":
-            tolerance = float(marks["tolerance"]) if "tolerance" in marks else None
-            found += commands_of(block["body"], block["quote"], line, block.start("body"), tolerance, int(marks.get("exit code", 0)))
+            found += commands_of(block, line, marks)
         else:
             raise Differs(f"line {line}: this block is neither a file nor a console: it would not be run")
     if page[end:].count("```") or not found:
@@ -99,12 +100,14 @@ def steps_before(path, page):
     return steps_of(other)
 
 
-def commands_of(body, quote, line, offset, tolerance, code):
-    found = []
-    for number, text in enumerate(body.splitlines(keepends=True), 1):
+def commands_of(block, line, marks):
+    found, quote, offset = [], block["quote"], block.start("body")
+    tolerance = float(marks["tolerance"]) if "tolerance" in marks else None
+    for number, text in enumerate(block["body"].splitlines(keepends=True), 1):
         bare = text.rstrip("\n").removeprefix(quote)
         if bare.startswith("$ "):
-            found.append(Step(line + number, text=bare[2:], span=(offset + len(text),) * 2, tolerance=tolerance, quote=quote))
+            found.append(Step(line + number, text=bare[2:], span=(offset + len(text),) * 2, tolerance=tolerance, quote=quote,
+                              needs=marks.get("needs", "")))
         elif not found:
             raise Differs(f"line {line + number}: found output, expected a command after \"$ \"")
         elif bare.startswith("> ") and not found[-1].printed:
@@ -115,7 +118,7 @@ def commands_of(body, quote, line, offset, tolerance, code):
             found[-1].span = (found[-1].span[0], offset + len(text))
         offset += len(text)
     if found:
-        found[-1].code = code
+        found[-1].code = int(marks.get("exit code", 0))
     return found
 
 
@@ -207,11 +210,15 @@ class Shell:
             folder.mkdir()
         (home / "clatter").symlink_to(SOURCE)
         for program in PROGRAMS:
-            (programs / program).symlink_to(BIN / program)
+            if (BIN / program).exists():
+                (programs / program).symlink_to(BIN / program)
         (programs / "clatter").symlink_to(SOURCE / "tools/clatter")
         caches = {"MPLCONFIGDIR": os.environ.get("MPLCONFIGDIR", str(pathlib.Path.home() / ".config/matplotlib"))}
         self.environment = {**os.environ, **caches, "HOME": str(home), "PATH": f"{programs}:{os.environ['PATH']}",
                             "CLATTER_BIN": str(BIN), "PYTHONDONTWRITEBYTECODE": "1", "MAKEFLAGS": ""}
+
+    def lacks(self, program):
+        return bool(program) and not shutil.which(program, path=self.environment["PATH"])
 
     def run(self, command):
         """(exit code, stdout, stderr)"""
@@ -261,16 +268,20 @@ def check_pictures(path, page, root, write):
 
 
 def run_page(path, write=False, keep=None):
-    """Runs a page; Differs where it is not what its commands do. With `write` the page becomes what they do."""
+    """Runs a page; Differs where it is not what its commands do. With `write` the page becomes what they do. Returns the programs that
+    some of its commands need and that are missing."""
     path = pathlib.Path(path)
     page = path.read_text()
-    steps, pieces, end = steps_of(page), [], 0
+    steps, pieces, end, missing = steps_of(page), [], 0, set()
     with tempfile.TemporaryDirectory(prefix="clatter-tutorial-") as scratch:
         root = pathlib.Path(scratch)
         shell = Shell(root)
         for step in steps_before(path, page):
             carry_out(shell, step)
         for step in steps:
+            if shell.lacks(step.needs):
+                missing.add(step.needs)
+                continue
             printed = carry_out(shell, step)
             if step.file:
                 continue
@@ -284,6 +295,7 @@ def run_page(path, write=False, keep=None):
         if write:
             path.write_text("".join([*pieces, page[end:]]))
         check_pictures(path, page, root, write)
+    return sorted(missing)
 
 
 def main():

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """clatter.Run, Field and Sound on the beam: against h5py, beam theory, and each other."""
+import importlib.util
 import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -97,6 +99,27 @@ class Results(stages.PipelineTest):
         frame = run.table("beam", "acceleration")
         np.testing.assert_array_equal(frame.index, run.time)
         np.testing.assert_array_equal(frame["tip.z"], run.motion("beam", "tip.z", "acceleration")[:, 0])
+
+    @unittest.skipIf(importlib.util.find_spec("xarray") is None, "python3-xarray is not installed")
+    def test_with_xarray_columns_have_their_units_and_the_crank_angle_is_a_coordinate(self):
+        run = self.open("step.run.h5")
+        found = run.dataset("beam", "velocity")
+        np.testing.assert_array_equal(found["time"], run.time)
+        np.testing.assert_array_equal(found["tip.z"], run.motion("beam", "tip.z", "velocity")[:, 0])
+        self.assertEqual([found[name].attrs["units"] for name in ("tip.z", "tip.ry", "time")], ["m/s", "rad/s", "s"])
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "slap.run.h5"
+            synthetic.write_run(path)
+            with h5py.File(path, "a") as file:
+                file["history/time"] = file["history/crank_angle_deg"][()] / 12000.0
+            with clatter.Run(path) as run:
+                found = run.dataset()
+                self.assertEqual(set(found.coords), {"time", "crank_angle_deg"})
+                self.assertEqual({name: one.attrs["units"] for name, one in found.data_vars.items()}, run.units)
+
+    def test_without_xarray_a_dataset_is_refused_with_the_package(self):
+        with unittest.mock.patch.dict(sys.modules, {"xarray": None}), self.assertRaisesRegex(clatter.Refused, "apt-get install python3-xarray"):
+            self.open("step.run.h5").dataset()
 
     def test_a_reduced_model_that_changed_or_is_missing_names_no_columns(self):
         run = self.open("step.run.h5")

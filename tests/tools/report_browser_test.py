@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The page of `clatter report --html` in Debian's Chromium without a window: it is drawn, without errors and without requests; it
 turns, slides, plays, saves; from a phone to a wall screen, light and dark, by keys."""
+import base64
 import os
 import pathlib
 import re
@@ -89,6 +90,37 @@ class Page(unittest.TestCase):
             if (colours.size < 12) found.push(one.getAttribute("aria-label"));
           } return found; })()""")
         self.assertEqual(blank, [])
+
+    def test_the_first_screen_has_the_loudest_runs_bar_its_level_and_the_skin_in_motion(self):
+        rows = self.page.evaluate("""[...document.querySelectorAll('.loud')].map(row => [row.querySelector('.name').textContent,
+          Number(row.querySelector('b').textContent), parseFloat(row.querySelector('.track i').style.width), getComputedStyle(row).getPropertyValue('--colour')])""")
+        self.assertGreaterEqual(len(rows), 2)
+        levels, widths = [row[1] for row in rows], [row[2] for row in rows]
+        self.assertEqual(sorted(range(len(rows)), key=levels.__getitem__), sorted(range(len(rows)), key=widths.__getitem__))
+        self.assertAlmostEqual(max(widths), 100.0)
+        self.assertEqual(len({row[3] for row in rows}), len(rows))
+        below = self.page.evaluate("Math.max(...['loud', 'moving'].map(id => document.getElementById(id).getBoundingClientRect().bottom))")
+        self.assertLess(below, 900)
+        before = self.shown("#moving canvas")
+        self.page.wait_for("new Promise(done => setTimeout(() => done(true), 300))")
+        self.assertNotEqual(self.shown("#moving canvas"), before)
+
+    def test_it_is_printed_on_two_light_pages(self):
+        self.page.colours("dark")
+        found = base64.b64decode(self.page.call("Page.printToPDF", printBackground=True, preferCSSPageSize=True)["data"])
+        self.assertEqual(len(re.findall(rb"/Type /Page\b", found)), 2)
+        self.page.evaluate("dispatchEvent(new Event('beforeprint'))")
+        self.assertEqual(self.page.evaluate("document.documentElement.dataset.theme"), "light")
+        self.page.evaluate("dispatchEvent(new Event('afterprint'))")
+        self.assertEqual(self.page.evaluate("document.documentElement.dataset.theme"), "dark")
+
+    def test_two_folders_scroll_together(self):
+        both = self.path.parent / "both.html"
+        subprocess.run([CLATTER, "report", "--html", self.path.parent, self.path.parent, "-o", both], check=True, capture_output=True)
+        self.page.goto(both)
+        self.click("Power")
+        tops = self.page.evaluate("[...document.querySelectorAll('iframe')].map(one => one.contentDocument.getElementById('radiation').getBoundingClientRect().top)")
+        self.assertTrue(all(-10 < top < 300 for top in tops), tops)
 
     def test_the_view_turns_by_pointer_and_by_keys_and_magnifies(self):
         self.pause()
@@ -192,7 +224,7 @@ class Page(unittest.TestCase):
         self.page.goto(self.path)
         self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=number["identifier"])
         self.assertIn("this browser has no WebGL2", self.page.evaluate("document.getElementById('surface').textContent"))
-        self.assertEqual(self.page.evaluate("document.querySelectorAll('main > section').length"), 12)
+        self.assertEqual(self.page.evaluate("document.querySelectorAll('main > section').length"), 13)
 
     @unittest.skipUnless((SAMPLE / "slap.field.h5").exists(), "make demo has not been run")
     def test_the_page_of_the_demo_is_smaller_than_40_mb_and_has_the_figures_of_the_report(self):
@@ -202,9 +234,8 @@ class Page(unittest.TestCase):
         self.page.goto(path)
         print(f"{path.stat().st_size / 1e6:.1f} MB, drawn after {self.page.evaluate('document.documentElement.dataset.drawn')} ms")
         printed = subprocess.run([CLATTER, "report", SAMPLE], check=True, capture_output=True, text=True).stdout
-        powers = re.findall(r"^  slap\S* .* (\d+\.\d)$", printed.split("power over the cycle")[1].split("cost of")[0], re.M)
-        self.assertEqual(self.page.evaluate("[...document.querySelectorAll('.keys div b')].map(one => one.textContent)")[:len(powers)],
-                         [f"{power} dB(A)" for power in powers])
+        powers = re.findall(r"^  slap\S* .* (\d+\.\d) +\d+\.\d$", printed.split("power over the cycle")[1].split("cost of")[0], re.M)
+        self.assertEqual(self.page.evaluate("[...document.querySelectorAll('.loud b')].map(one => one.textContent)")[:len(powers)], powers)
 
     def test_no_width_needs_a_horizontal_scroll_bar(self):
         for width, height, phone in ((360, 740, True), (768, 1024, True), (1280, 900, False), (3840, 2160, False)):

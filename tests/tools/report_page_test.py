@@ -109,6 +109,51 @@ class Page(Folder):
         self.assertTrue(data["summary"]["sentences"][0].startswith(f"Loudest: {data['runs'][loudest['run']]['label']}"))
         self.assertIn("lines at 500", data["summary"]["sentences"][0])  # the peak of the power
 
+    def test_the_first_screen_names_of_each_run_what_is_loudest_and_the_run_that_is_the_base(self):
+        synthetic_page.write_folder(self.folder)
+        data, _, _ = self.page()
+        label = {one["stem"]: number for number, one in enumerate(data["runs"])}
+        self.assertIsNone(data["summary"]["base"])  # no scene names another one
+        own = next(one for one in data["summary"]["loudest"] if one["run"] == label["dry"])
+        with h5py.File(self.folder / "dry.field.h5") as field:
+            at = field["analysis/cycle"]
+            power = at["sound/power"][()]
+            self.assertEqual(own["band"], at["third_octave/nominal"][int(np.argmax(at["sound/third_octave/power_dba"]))].decode())
+            self.assertIn(own["line"], at["frequency_hz"][()][np.argsort(power)[-5:]])
+            panels = {name: panel.attrs["erp_dba"] for name, panel in at["panels"].items() if name not in ("skin", "exposed")}
+            self.assertEqual((own["part"], own["share"]), (max(panels, key=panels.get), None))
+        with h5py.File(self.folder / "dry.field.h5", "r+") as field:
+            quietest = min(panels, key=panels.get)
+            for name in panels:
+                field[f"analysis/cycle/panels/{name}"].attrs["sound_power_share"] = 0.7 if name == quietest else 0.1
+        with h5py.File(self.folder / "dry.run.h5", "r+") as run:
+            run["inputs/path"], run["inputs/sha256"] = [b"dry.run.toml", b"wet.run.toml"], [b"0", b"0"]
+        with h5py.File(self.folder / "wet.run.h5", "r+") as run:
+            run["inputs/path"], run["inputs/sha256"] = [b"wet.run.toml"], [b"0"]
+        data, _, _ = self.page()
+        own = next(one for one in data["summary"]["loudest"] if one["run"] == label["dry"])
+        self.assertEqual((own["part"], own["share"]), (quietest, 0.7))
+        self.assertEqual(data["summary"]["base"], label["wet"])
+
+    def test_two_folders_are_one_page_with_the_change_of_their_levels(self):
+        for name, louder in (("old", 0.0), ("new", 2.5)):
+            (self.folder / name).mkdir()
+            synthetic_page.write_folder(self.folder / name)
+            with h5py.File(self.folder / name / "dry.field.h5", "r+") as field:
+                level = field["analysis/cycle/sound"].attrs["power_dba"]
+                field["analysis/cycle/sound"].attrs["power_dba"] = level + louder
+        done = self.clatter("old", "new", "--html", "-o", "both.html")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (self.folder / "both.html").read_text(encoding="utf-8")
+        self.assertIn(f"<td>dry</td><td>{level:.1f}</td><td>{level + 2.5:.1f}</td><td>+2.5</td>", text)
+        self.assertIn("<td>+0.0</td>", text)  # of the wet run
+        self.assertIn("<title>old beside new</title>", text)
+        self.assertEqual(text.count("<iframe "), 2)
+        for arguments in (("old", "new"), ("old", "new", "old", "--html")):
+            done = self.clatter(*arguments)
+            self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
+            self.assertIn("expected one, or two with --html", done.stderr)
+
     def test_the_command_says_where_the_page_is_and_refuses_in_one_line(self):
         synthetic.write_run(self.folder / "slap.run.h5")
         done = self.clatter("--html")

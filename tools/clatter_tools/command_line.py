@@ -43,7 +43,7 @@ def parser():
     one = commands.add_parser("run", help="bring a folder's artefacts up to date (make)")
     run.add_arguments(one)
     one = commands.add_parser("report", help="print the results of the runs in a folder, or write them as a page")
-    one.add_argument("folder", nargs="?", default=".")
+    one.add_argument("folders", nargs="*", metavar="folder", help="default: this one; two with --html are shown side by side")
     one.add_argument("--html", action="store_true", help="write one page of HTML with plots and a 3-D view instead")
     one.add_argument("-o", "--output", metavar="page.html", help="of --html; default: report.html in the folder")
     one = commands.add_parser("plot", help="draw a picture from artefacts")
@@ -102,13 +102,16 @@ def plot(kind, files, output, at):
 
 
 def write_report(options):
+    folder, *others = options.folders or ["."]
+    if len(others) > (1 if options.html else 0):
+        raise BadArtefact(f"report: found {1 + len(others)} folders, expected one, or two with --html")
     if not options.html:
         if options.output:
             raise BadArtefact(f"--output: found {options.output}, expected it with --html only")
-        report.print_report(options.folder)
+        report.print_report(folder)
         return
     from . import report_page  # which loads matplotlib
-    path = report_page.write_page(options.folder, options.output)
+    path = report_page.write_page(folder, options.output, *others)
     print(f"{path}: {path.stat().st_size / 1e6:.1f} MB")
 
 

@@ -1,9 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter info`: contents, inputs, certificate and cost of an artefact."""
+import re
+
 import h5py
 
 from clatter import artefact
 from . import certificate, integrity
+
+
+# Of datasets that a file keeps without the attribute, by their path: those of docs/formats.md.
+UNITS = [(re.compile(pattern), unit) for pattern, unit in (
+    (r"/bodies/[^/]+/q$", "m"), (r"/bodies/[^/]+/v$", "m/s"), (r"/bodies/[^/]+/a$", "m/s2"),
+    (r"/film/.*/(gap|axial|liner_oil|liner_height)$", "m"), (r"/film/.*/(contact_)?pressure$", "Pa"), (r"/film/.*/fill$", "1"),
+    (r"/film/.*/angle_deg$", "deg"), (r"/chain/[^/]+/(x|y|pitch)$|/over/[^/]+/outline$", "m"), (r"/chain/[^/]+/angle$", "rad"),
+    (r"/chain/[^/]+/tension$", "N"), (r"/effects/seconds$", "s"))]
+
+
+def unit_of(item):
+    """Of a dataset or of the group that keeps one for all of its datasets; empty where it has none."""
+    for one in (item, item.parent):
+        if "unit" in one.attrs:
+            return artefact.text(one.attrs["unit"])
+    return next((unit for pattern, unit in UNITS if pattern.search(item.name)), "")
 
 
 def print_tree(group, depth=1):
@@ -11,14 +29,13 @@ def print_tree(group, depth=1):
     names = list(group)
     for name in names[:8] if len(names) > 12 else names:
         item = group[name]
-        unit = artefact.text(item.attrs["unit"]) if "unit" in item.attrs else ""
         if isinstance(item, h5py.Group):
             print(f"{'  ' * depth}{name}/  {sparse_note(item)}".rstrip())
             if not sparse_note(item):
                 print_tree(item, depth + 1)
         else:
             shape = " x ".join(map(str, item.shape)) or "scalar"
-            print(f"{'  ' * depth}{name:<28} {shape:>14}  {item.dtype}  {unit}".rstrip())
+            print(f"{'  ' * depth}{name:<28} {shape:>14}  {item.dtype}  {unit_of(item)}".rstrip())
     if len(names) > 12:
         print(f"{'  ' * depth}... and {len(names) - 8} more")
 

@@ -8,16 +8,17 @@ import shutil
 import tempfile
 
 from clatter.errors import BadArtefact, CannotWrite
-from . import part
+from . import part, templates
 from ..keys.schema_line import PACKAGE, schema_line
 
-SAMPLES = {"part": "beam", "slap": "truck_diesel", "drive": "timing_drive"}
+# The sample of each kind, and which of its files a user reads and edits.
+SAMPLES = {"part": ("beam", ("*.toml", "Makefile", "compare")),
+           "slap": ("truck_diesel", ("slap.run.toml", "slap_dry.run.toml", "block.[!m]*.toml", "block.mesh.toml", "block_warm.fe.toml",
+                                     "piston.[!m]*.toml", "piston.mesh.toml", "piston_warm.fe.toml", "field.toml", "motored.csv")),
+           "drive": ("timing_drive", ("*.toml", "Makefile"))}
 START = {"part": "start with step.run.toml, the scene, and beam.*.toml, its part",
-         "slap": "start with slap.run.toml, the scene, and block.*.toml and piston.*.toml, its parts; most other scenes change a few keys of it",
+         "slap": "start with slap.run.toml, the scene, and block.*.toml and piston.*.toml, its parts; slap_dry.run.toml changes a few keys of it",
          "drive": "start with drive.run.toml, the scene, and block.*.toml, its part; valves.run.toml changes a few tables of it"}
-OWN = ("*.toml", "*.csv", "*.mk", "Makefile", "compare")
-# What the Makefile of truck_diesel makes of its other files.
-MADE = re.compile(r"(block_(liner|damping)|piston_(density|crown|offset)|motored_|fired_)-?\d|.*\.mac\.csv$")
 INCLUDE = re.compile(r"^include .*clatter rules.*$", re.M)
 
 
@@ -46,7 +47,7 @@ def write_new(options):
         if options.part:
             lines = part.write_part(scratch, pathlib.Path(options.part), options.units)
         else:
-            lines = [*copy_sample(scratch, SAMPLES[options.kind]), START[options.kind]]
+            lines = [*copy_sample(scratch, *SAMPLES[options.kind]), START[options.kind]]
         names = sorted(path.name for path in scratch.iterdir())
     print(f"{folder}: {len(names)} files: {', '.join(names)}")
     for line in lines:
@@ -84,12 +85,15 @@ def samples_folder():
     raise BadArtefact("the samples were not found beside clatter's tools; reinstall clatter")
 
 
-def copy_sample(folder, name):
-    """Copies what a sample consists of, with the rules and schemas of this installation; returns lines for the user."""
+def copy_sample(folder, name, patterns):
+    """Copies these files of a sample, with the rules and schemas of this installation; returns lines for the user."""
     source = samples_folder() / name
-    for path in sorted({path for pattern in OWN for path in source.glob(pattern) if not MADE.match(path.name)}):
+    for path in (path for pattern in patterns for path in source.glob(pattern)):
         text = INCLUDE.sub("include $(shell clatter rules)", path.read_text(encoding="utf-8"))
         text = re.sub(r"^#:schema \S*?(\w+)\.schema\.json\n", lambda found: schema_line(f"{found[1]}.toml"), text, flags=re.M)
         (folder / path.name).write_text(text, encoding="utf-8")
         shutil.copymode(path, folder / path.name)
+    if not (folder / "Makefile").exists():
+        (folder / "Makefile").write_text(templates.SLAP_MAKEFILE, encoding="utf-8")
+        return [f"from samples/{name}, which has more scenes: the comments say what each number is"]
     return [f"a copy of samples/{name}: its comments say what each number is"]

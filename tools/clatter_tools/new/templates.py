@@ -51,6 +51,30 @@ SENSORS = """
 # Three points far from each other. CHANGE: to where you measure, the nearest node is taken; the hit is at the first.
 """
 
+SLAP_MAKEFILE = """# Piston slap with and without oil: `clatter run` or make repeats what a newer input affects.
+# `make check` compares the reduced models with the full ones.
+include $(shell clatter rules)
+runs := slap slap_dry
+all: $(runs:=.field.h5)
+check: block.compare.txt piston.compare.txt
+\t@cat $^
+.DEFAULT_GOAL := all
+.PHONY: all check
+$(runs:=.run.h5): block.rom.h5 piston.rom.h5 liner_4.shape.h5 skirt.shape.h5
+$(runs:=.field.h5): block.sound.h5
+
+# Shapes that temperatures and bolts give to liner and skirt, of block_warm.fe.toml and piston_warm.fe.toml.
+%_warm.fe.h5: %.mesh.h5 %_warm.fe.toml $(clatter_assembly)
+\t$(call clatter_run,assembly) $< -c $*_warm.fe.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+block_warm.static.h5: cases := --case assembly
+%_warm.static.h5: %_warm.fe.h5 $(clatter_modal)
+\t$(call clatter_run,modal) statics $< --case motored $(cases) -o $@ --depfile $@.d $(CLATTER_FLAGS)
+liner_4.shape.h5: block_warm.static.h5
+\t$(call clatter_run,modal) shape $< --surface liner_4_bore -o $@ --depfile $@.d $(CLATTER_FLAGS)
+skirt.shape.h5: piston_warm.static.h5
+\t$(call clatter_run,modal) shape $< --surface skirt -o $@ --depfile $@.d $(CLATTER_FLAGS)
+"""
+
 REST = {
     "{stem}.rom.toml": """# Craig-Bampton: these sets are retained, modes represent the rest.
 # CHANGE: sets that no scene needs can go, but what stays has to hold all rigid motions of the part.

@@ -35,6 +35,8 @@ function navigation() {
 
 head();
 summarySection();
+document.documentElement.dataset.first = Math.round(performance.now());
+await new Promise(done => requestAnimationFrame(() => setTimeout(done))); // the first screen is painted before the rest is made
 await surfaceSection();
 await radiationSection();
 await listeningSection();

@@ -85,6 +85,8 @@ function drawingFont(weight = "") {
   return { size, css: `${weight} ${size}px system-ui, "Segoe UI", "DejaVu Sans", sans-serif` };
 }
 
+const PRINTED = "#summary, #radiation"; // the sections that page.css leaves on paper
+
 /** Calls back when a drawing comes near the window, and again whenever it must be drawn again while it is there. */
 function whenVisible(host, draw) {
   let near = false,
@@ -117,5 +119,8 @@ function whenVisible(host, draw) {
   ).observe(host);
   new ResizeObserver(request).observe(host);
   for (const name of ["appearance", "runs"]) document.addEventListener(name, request);
+  addEventListener("beforeprint", () => {
+    if (host.isConnected && host.closest(PRINTED)) draw(); // at once: the browser does not wait for a frame
+  });
   return request;
 }

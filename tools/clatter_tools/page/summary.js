@@ -4,26 +4,6 @@
 function summarySection() {
   const { sentences, tables, checks, worries, stale } = page.summary;
   const host = section("summary", "Summary", "Summary");
-  const keys = element("div", { class: "keys" });
-  for (const run of page.many ? [] : (page.radiation?.runs ?? [])) {
-    const panel = run.panels.find(one => one.name === "exposed") ?? run.panels.find(one => one.name === "skin");
-    if (!panel) continue;
-    const box = element(
-      "div",
-      {},
-      element("b", {}, `${panel.measures.erp.dba.toFixed(1)} dB(A)`),
-      element("span", {}, `${runName(run.run)}: equivalent radiated power, ${panel.label}, re 1 pW`),
-    );
-    const paint = () => box.style.setProperty("--colour", runColour(run.run));
-    paint();
-    document.addEventListener("appearance", paint);
-    keys.append(box);
-  }
-  for (const run of page.many ? [] : (page.sound ?? [])) {
-    const found = `${runName(run.run)}: sound power by boundary elements, re 1 pW`;
-    keys.append(element("div", {}, element("b", {}, `${run.dba.toFixed(1)} dB(A)`), element("span", {}, found)));
-  }
-  if (keys.children.length) host.append(keys);
   const state = checks.bad
     ? ["bad", "✗", `${checks.bad} of the certificates say that a result must not be trusted`]
     : checks.note
@@ -39,7 +19,10 @@ function summarySection() {
       ? element("p", { class: "note" }, element("a", { href: "#certificates" }, "all certificates in words"))
       : null,
   );
-  host.append(grid(sentences.length ? card("What was found", wordList(sentences)) : null, verdict));
+  const [loud, moving] = [loudnessCard(), movingFigure()];
+  if (loud || moving) host.append(element("div", { class: moving ? "first" : "" }, element("div", {}, loud, verdict), moving));
+  const found = sentences.length ? card("What was found", wordList(sentences)) : null;
+  if (found || !(loud || moving)) host.append(grid(found, loud || moving ? null : verdict));
   for (const { title, head, rows } of tables) host.append(tableCard(title, head, rows));
 }
 

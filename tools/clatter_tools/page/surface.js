@@ -78,7 +78,7 @@ class Surface {
     this.renderer.load(this.skin);
     this.shapes = this.part.shapes ? await readRows(this.part.shapes) : null;
     [this.modes, this.node] = [null, null];
-    await this.chooseRun(0);
+    await this.chooseRun(Math.max(0, this.part.runs.findIndex(run => run.run === loudestRun)));
     const possible = this.kinds().map(([kind]) => kind);
     buildControls(this);
     await this.chooseKind(possible.includes(this.kind) ? this.kind : possible[0]);
@@ -166,10 +166,9 @@ class Surface {
       return;
     }
     requestAnimationFrame(later => this.tick(later));
-    const bounds = this.canvas.getBoundingClientRect(),
-      passed = Math.min(100, now - (this.last ?? now)) / 1000;
+    const passed = Math.min(100, now - (this.last ?? now)) / 1000;
     this.last = now;
-    if (!this.re || bounds.bottom < 0 || bounds.top > innerHeight || document.hidden) return;
+    if (!this.re || document.hidden || ![this.canvas, this.preview].some(inWindow)) return;
     if (this.kind === "instant") {
       this.rest = (this.rest ?? 0) + passed * 30 * this.speed;
       const whole = Math.floor(this.rest);
@@ -309,6 +308,7 @@ class Surface {
     this.renderer.draw(scene);
     paintBar(this.bar, scene.bar);
     this.writeRuler(scene);
+    this.drawn?.();
   }
 
   /** A length, and how long a velocity is drawn. */
@@ -354,6 +354,12 @@ class Surface {
   }
 }
 
+/** Whether a part of a canvas is in the window. */
+function inWindow(canvas) {
+  const bounds = canvas?.getBoundingClientRect();
+  return Boolean(bounds?.height) && bounds.bottom > 0 && bounds.top < innerHeight;
+}
+
 function shapesText(shapes, error, before = "") {
   return `made of ${shapes.count - RIGID} shapes, which miss ${before}${figure(100 * error, 2)} %`;
 }
@@ -369,6 +375,7 @@ async function surfaceSection() {
   try {
     const surface = new Surface(host, page.surface);
     await surface.loaded;
+    mirror(surface);
   } catch (error) {
     host.querySelector(".spread")?.remove();
     host.append(card("No 3-D view", element("p", { class: "note" }, error.message)));

@@ -15,8 +15,15 @@ function remembered(key, value) {
 
 let theme = remembered("clatter-theme") in THEMES ? remembered("clatter-theme") : "auto";
 
+let printing = false; // on white paper
+for (const [name, on] of [["beforeprint", true], ["afterprint", false]])
+  addEventListener(name, () => {
+    printing = on;
+    applyTheme();
+  });
+
 function dark() {
-  return theme === "dark" || (theme === "auto" && systemDark.matches);
+  return !printing && (theme === "dark" || (theme === "auto" && systemDark.matches));
 }
 
 function applyTheme() {

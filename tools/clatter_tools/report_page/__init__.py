@@ -10,7 +10,7 @@ import numpy as np
 
 from clatter import artefact
 from clatter.histories import angle_zero
-from . import (accuracy, certificates, cost, drive, film_maps, mechanism, models, radiation, sensors, sound, speeds, summary, surface)
+from . import (accuracy, certificates, cost, drive, film_maps, mechanism, models, radiation, sensors, sound, speeds, summary, surface, two)
 from ..plots import style
 from ..whole_file import whole_file
 from .folder import Folder
@@ -19,16 +19,18 @@ from .pack import Pack, json_text
 PAGE = pathlib.Path(__file__).resolve().parent.parent / "page"
 # In this order: each uses only what is before it.
 SCRIPTS = ("element", "data", "theme", "runs", "save", "scale", "lines", "picture", "plot", "heat", "matrix", "renderer", "motion", "view", "sound",
-           "summary", "beside", "controls", "surface_save", "surface", "radiation", "listening", "sensors", "mechanism", "film", "drive", "speeds", "models", "accuracy", "cost", "main")
+           "loudness", "summary", "beside", "controls", "surface_save", "surface", "radiation", "listening", "sensors", "mechanism", "film", "drive", "speeds", "models", "accuracy", "cost", "main")
 COLOURS = {"viridis": "viridis", "cividis": "cividis", "diverging": "RdBu_r"}  # safe for colour-blind eyes
 STEPS = 64
 
 
-def write_page(folder, output=None):
-    """Writes the page, by default report.html in the folder, complete or not at all; returns its path."""
-    found = Folder(folder)
-    output = pathlib.Path(output) if output else found.path / "report.html"
-    text = page(found)
+def write_page(folder, output=None, beside=None):
+    """Writes the page, by default report.html in the folder, complete or not at all; returns its path. Of two folders, the second of which
+    is `beside`, it has the pages of both."""
+    found = [Folder(one) for one in (folder, beside) if one is not None]
+    output = pathlib.Path(output) if output else found[0].path / "report.html"
+    texts = [page(one) for one in found]
+    text = two.page(found, texts, (PAGE / "two.html").read_text(encoding="utf-8")) if beside is not None else texts[0]
     with whole_file(output) as part:
         part.parent.mkdir(parents=True, exist_ok=True)
         part.write_text(text, encoding="utf-8")

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The first section: what was found, in sentences and in the tables of `clatter report`."""
+import numpy as np
+
 from clatter import artefact, chains, fields
 from .. import drive_findings, findings, slap
+from ..weighting import loudest_peaks
 from .certificates import GOOD
 
 WORRIES = 12  # that are listed
@@ -9,10 +12,33 @@ WORRIES = 12  # that are listed
 
 def collect(folder, cards):
     """Sentences, tables, and how many certificates have something to say."""
-    return {"sentences": sound(folder) + drives(folder), "tables": tables(folder),
+    return {"loudest": [loudest(one) for one in folder.with_field()], "base": base(folder),
+            "sentences": sound(folder) + drives(folder), "tables": tables(folder),
             "checks": {state: sum(card["state"] == state for card in cards) for state in ("good", "note", "bad")},
             "worries": worries(cards),
             "stale": stale(folder)}
+
+
+def loudest(one):
+    """Of a run: its loudest third octave and line, and the panel from which most comes, with its share where the sound is known."""
+    at = fields.piece(one.field, "cycle", *fields.pieces(one.field))
+    power = fields.radiated(one.field, at)
+    band = artefact.text(artefact.dataset(one.field, f"{at}/third_octave/nominal")[int(np.argmax(artefact.dataset(one.field, power.bands)))])
+    frequency = artefact.dataset(one.field, f"{at}/frequency_hz")
+    lines = frequency[loudest_peaks(frequency, artefact.dataset(one.field, power.power), 1, one.field.attrs.get("spectra_from_hz", 0.0))]
+    panels = {name: panel.attrs for name, panel in one.field[f"{at}/panels"].items() if name not in ("skin", "exposed")}
+    key = "sound_power_share" if any("sound_power_share" in attrs for attrs in panels.values()) else "erp_dba"
+    part = max((name for name in panels if key in panels[name]), key=lambda name: panels[name][key], default=None)
+    return {"run": one.number, "band": band, "line": float(lines[0]) if len(lines) else None, "part": part and part.replace("_", " "),
+            "share": float(panels[part][key]) if part and key == "sound_power_share" else None}
+
+
+def base(folder):
+    """The run whose scene most other runs have as their base; None where there is none."""
+    named = [name for one in folder.with_run() for name, _ in artefact.inputs(one.run)]
+    others = {one.number: named.count(f"{one.stem}.run.toml") - 1 for one in folder.with_run()}
+    found = max(others, key=others.get, default=None)
+    return found if found is not None and others[found] > 0 else None
 
 
 def worries(cards):
