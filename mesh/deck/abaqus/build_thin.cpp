@@ -132,7 +132,7 @@ class ThinElements {
     for (const size_t t : members) {
       if (all_[t].face) faces.push_back(skin_of_[t]);
       for (int32_t i = 0; !all_[t].face && i < all_[t].count; ++i) {
-        nodes.push_back(model_.node_map.mesh_node(all_[t].nodes[i]));
+        nodes.push_back(model_.node_map.require(all_[t].nodes[i]));
       }
     }
     skins_.add_surface(name, faces);

@@ -33,6 +33,14 @@ TEST(AbaqusBars, HasItsSectionMaterialAndOrientation) {
   EXPECT_EQ(found[1].ends, (std::array<NodeIndex, 2>{1, 2}));
 }
 
+TEST(AbaqusBars, TheirElementSetsAreSetsOfTheirNodes) {
+  const Deck deck = read(kNodes +
+                         "*ELEMENT, TYPE=B31, ELSET=B\n7, 1, 2\n8, 2, 3\n"
+                         "*BEAM SECTION, ELSET=B, MATERIAL=STEEL, SECTION=CIRC\n3.\n");
+  EXPECT_EQ(deck.sets.at("B"), (std::vector<NodeIndex>{0, 1, 2}));
+  EXPECT_FALSE(deck.mesh.node_sets.contains("B"));
+}
+
 TEST(AbaqusBars, OfThreeNodesIsTwo) {
   const auto found = beams(
       "*ELEMENT, TYPE=B32, ELSET=B\n7, 1, 2, 3\n"
