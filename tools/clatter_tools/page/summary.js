@@ -11,8 +11,8 @@ function summarySection() {
     const box = element(
       "div",
       {},
-      element("b", {}, `${panel.measures.erp.dba.toFixed(1)} dB(A)`),
-      element("span", {}, `${runName(run.run)}: equivalent radiated power, ${panel.label}, re 1 pW`),
+      element("b", {}, levelText(panel.measures.erp, panel.mean)),
+      element("span", {}, `${runName(run.run)}: equivalent radiated power, ${panel.label}, re 1 pW${cyclesText(panel.mean)}`),
     );
     const paint = () => box.style.setProperty("--colour", runColour(run.run));
     paint();
@@ -20,8 +20,8 @@ function summarySection() {
     keys.append(box);
   }
   for (const run of page.many ? [] : (page.sound ?? [])) {
-    const found = `${runName(run.run)}: sound power by boundary elements, re 1 pW`;
-    keys.append(element("div", {}, element("b", {}, `${run.dba.toFixed(1)} dB(A)`), element("span", {}, found)));
+    const found = `${runName(run.run)}: sound power by boundary elements, re 1 pW${cyclesText(run.mean)}`;
+    keys.append(element("div", {}, element("b", {}, levelText(run, run.mean)), element("span", {}, found)));
   }
   if (keys.children.length) host.append(keys);
   const state = checks.bad
@@ -42,6 +42,10 @@ function summarySection() {
   host.append(grid(sentences.length ? card("What was found", wordList(sentences)) : null, verdict));
   for (const { title, head, rows } of tables) host.append(tableCard(title, head, rows));
 }
+
+/** "92.7 dB(A)" of a cycle; of a mean over several, where there is one, "92.7 ± 0.26 dB(A)". */
+const levelText = (cycle, mean) => (mean ? `${mean.dba.toFixed(1)} ± ${mean.error.toFixed(2)} dB(A)` : `${cycle.dba.toFixed(1)} dB(A)`);
+const cyclesText = mean => (mean ? `, mean of ${mean.cycles} cycles` : "");
 
 const STATES = { good: ["good", "✓ good"], note: ["note-state", "! remarks"], bad: ["bad", "✗ not proved"] };
 

@@ -35,7 +35,7 @@ def sound(folder):
     found = [f"{'Loudest: ' if len(levels) > 1 else ''}{text}."]
     if len(levels) > 1:
         found.append(f"Quietest: {levels[0][2].label}: {levels[0][0]:.1f} dB(A), {level - levels[0][0]:.1f} dB below it.")
-    at = fields.piece(loudest.field, "cycle", *fields.pieces(loudest.field))
+    at = fields.level_piece(loudest.field)
     others = sorted(((float(panel.attrs["erp_dba"]), name) for name, panel in loudest.field[f"{at}/panels"].items()
                      if name not in ("skin", "exposed") and "erp_dba" in panel.attrs), reverse=True)
     if others:
