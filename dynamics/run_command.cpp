@@ -27,6 +27,7 @@ void request_stop(int) { stop_requested.store(true); }
 struct RunArguments {
   std::filesystem::path scene, output;
   bool resume = false, effects = false;
+  double checkpoint_seconds = RunControl().checkpoint_seconds;
 };
 
 /// From here on SIGINT, SIGTERM and SIGXCPU, a limit of processor time (hard case P15), end the run
@@ -44,31 +45,41 @@ void require_no_stop(const std::filesystem::path& output) {
         fmt::format("{}: interrupted before the first step, nothing was written", output.string()));
 }
 
+/// Where a run with --resume begins.
+std::string resume_text(const RunControl& control, const std::filesystem::path& output) {
+  const std::filesystem::path checkpoint = checkpoint_path(output);
+  if (const auto& from = control.resume_from)
+    return from->cycle > 0 ? fmt::format("resuming after cycle {}", from->cycle)
+                           : fmt::format("resuming at {:.6g} s", from->state.time);
+  if (std::filesystem::exists(checkpoint))
+    return fmt::format(
+        "{} belongs to another scene, other inputs or another program: starting again",
+        checkpoint.string());
+  return fmt::format(
+      "{}: nothing to resume, there is no checkpoint (one is written after each cycle, without "
+      "cycles every {:g} s): the run starts at its beginning",
+      output.string(), control.checkpoint_seconds);
+}
+
 /// Stops on signals, and continues from a checkpoint where that was requested.
 RunControl control_of(const RunArguments& a, const Scene& scene) {
   const std::filesystem::path checkpoint = checkpoint_path(a.output);
   RunControl control;
   control.output = a.output;
   control.stop = &stop_requested;
+  control.checkpoint_seconds = a.checkpoint_seconds;
   control.label = fmt::format("integrating {}", a.scene.stem().stem().string());
   if (a.resume) control.resume_from = read_checkpoint(checkpoint, fingerprint(scene));
-  if (control.resume_from) {
-    say(fmt::format("resuming after cycle {}", control.resume_from->cycle));
-  } else if (a.resume && std::filesystem::exists(checkpoint)) {
-    say(fmt::format("{} belongs to another scene, other inputs or another program: starting again",
-                    checkpoint.string()));
-  } else if (a.resume && std::filesystem::exists(a.output.string() + ".part")) {
-    say(
-        fmt::format("{}: no checkpoint, which are written between cycles: the interrupted run "
-                    "starts again",
-                    a.output.string()));
-  }
+  if (a.resume) say(resume_text(control, a.output));
   return control;
 }
 
 Reader reader_of(int stream) { return isatty(stream) != 0 ? Reader::kTerminal : Reader::kFile; }
 
 void run_scene(const RunArguments& a, const CommonOptions& common) {
+  if (!(a.checkpoint_seconds >= 0.0))
+    throw InputError(
+        fmt::format("--checkpoint-seconds: found {:g}, expected 0 or more", a.checkpoint_seconds));
   stop_on_signals();
   plan_run_files(a.output);
   StepClock clock;
@@ -108,6 +119,9 @@ void declare_run(CommandLine& line) {
   line.output("-o,--output", a->output, "the run file to write; default: the scene's stem.run.h5");
   line.flag("--resume", a->resume,
             "continue from the checkpoint beside the output, if it belongs to this scene");
+  line.option("--checkpoint-seconds", a->checkpoint_seconds,
+              "of a scene without cycles: between checkpoints, at least; 0: as often as they take "
+              "5 % of the time");
   line.flag("--effects", a->effects,
             "print the effects of the scene with equations, switches and predicted cost, and do "
             "not run it; a run of it at the output gives its measured seconds instead");

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "core/base/whole_file.hpp"
 #include "recover/sound/acoustic_velocity.hpp"
 #include "recover/sound/sound_file.hpp"
+#include "recover/spectrum/piece_samples.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -85,8 +87,13 @@ void warn_of_lost_motion(const RunBody& body, const PanelForm& skin, const Piece
   if (piece.periodic || piece.domain == Domain::kAngle || piece.segments() > 1) return;
   constexpr double kMost = 0.5;
   Eigen::Index largest = 0;
-  const Eigen::VectorXd square =
-      normal_velocity_integral(skin.W, body.samples("v", 0, clock.time.size()));
+  Eigen::VectorXd square(clock.time.size());
+  const Eigen::Index rows = block_rows(skin.W.rows());
+  for (Eigen::Index first = 0; first < square.size(); first += rows) {
+    const Eigen::Index count = std::min(rows, square.size() - first);
+    square.segment(first, count) =
+        normal_velocity_integral(skin.W, body.samples("v", first, count));
+  }
   if (!(square.maxCoeff(&largest) > 0.0)) return;
   const Eigen::Index at = largest - piece.first;
   const std::string where = fmt::format("{}: the largest motion of the run, at {:.4g} s, lies",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Datasets that grow while a file is written.
+// Datasets that grow while a file is written, and that are copied.
 #include "core/base/h5_file.hpp"
 
 #include <cassert>
@@ -62,6 +62,23 @@ void H5File::append(std::string_view name, const RowMatrix& rows) {
 void H5File::append_float(std::string_view name, const std::vector<float>& values,
                           const std::vector<int64_t>& shape) {
   impl_->append(name, H5T_NATIVE_FLOAT, values.data(), shape);
+}
+
+void H5File::copy(const H5File& from, std::string_view source, std::string_view group) {
+  const auto member = [](std::string_view owner, const std::string& name) {
+    return owner == "/" ? name : fmt::format("{}/{}", owner, name);
+  };
+  if (group != "/") impl_->ensure_group(std::string(group));
+  for (const std::string& name : from.list(source)) {
+    const std::string path = member(group, name);
+    if (has(path) && H5Ldelete(impl_->file, path.c_str(), H5P_DEFAULT) < 0) impl_->fail_write(path);
+    if (H5Ocopy(from.impl_->file, member(source, name).c_str(), impl_->file, path.c_str(),
+                H5P_DEFAULT, H5P_DEFAULT) < 0) {
+      const std::string why = damage();
+      if (why.starts_with("checksum")) from.impl_->refuse(member(source, name), why);
+      impl_->fail_write(path);
+    }
+  }
 }
 
 }  // namespace clatter

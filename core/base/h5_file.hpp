@@ -83,6 +83,10 @@ class H5File {
   void append_float(std::string_view name, const std::vector<float>& values,
                     const std::vector<int64_t>& shape);
 
+  /// Copies the members of the group `source` of another file, "/" for its root, into `group`, in
+  /// the place of members of the same names.
+  void copy(const H5File& from, std::string_view source, std::string_view group);
+
   std::vector<double> read_doubles(std::string_view name) const;
   std::vector<int32_t> read_ints(std::string_view name) const;
   std::vector<int64_t> read_longs(std::string_view name) const;

@@ -30,13 +30,14 @@ LinkJoints::LinkJoints(std::string name, std::vector<int> coordinates, ChainMake
     : ForceElement(std::move(coordinates)),
       name_(std::move(name)),
       make_(std::move(make)),
-      law_(law) {
+      law_(law),
+      creep_(law.slip_speed, static_cast<size_t>(make_.joints())) {
   for (int j = 0; j < make_.joints(); ++j) {
     const int a = 3 * j, b = 3 * next(j);
     groups_.push_back({a, a + 1, a + 2, b, b + 1, b + 2});
   }
   halves_.resize(make_.links());
-  last_ = finished_ = accepted_ = std::vector<double>(make_.joints(), 0.0);
+  last_ = finished_ = accepted_ = slip_ = std::vector<double>(make_.joints(), 0.0);
 }
 
 /// Each link has two joints: its sine and cosine serve both.
@@ -80,6 +81,7 @@ void LinkJoints::evaluate(const Stage& stage, const VectorXd& y, const VectorXd&
     response.force(3 * j + 2) += cross(at.front + at.d, force) + moment;
     response.force.segment<2>(3 * k) -= force;
     response.force(3 * k + 2) -= cross(at.rear, force) + moment;
+    slip_[j] = at.pressed > 0.0 ? law_.radius * at.spin : std::nan("");
     last_[j] = std::copysign(force.norm(), -force.dot(at.rear));
     if (!with_tangent) continue;
     TangentBlock& block = response.blocks[j];
@@ -125,6 +127,17 @@ void LinkJoints::tangent(const Joint& at, const Vector2d& force, double kappa, d
   values.row(2) = on_front + moment;
   values.middleRows<2>(3) = -by_y;
   values.row(5) = -on_rear - moment;
+}
+
+void LinkJoints::accept_step(double time) {
+  accepted_ = finished_;
+  if (law_.friction == 0.0) return;
+  for (size_t j = 0; j < slip_.size(); ++j)
+    creep_.accept_step(j, time, !std::isnan(slip_[j]), {slip_[j], 0.0});
+}
+
+std::optional<double> LinkJoints::crept() const {
+  return law_.friction > 0.0 ? std::optional(creep_.longest()) : std::nullopt;
 }
 
 Power LinkJoints::power(const VectorXd& y, const VectorXd& v) const {

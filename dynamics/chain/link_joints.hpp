@@ -7,6 +7,7 @@
 
 #include "dynamics/chain/link.hpp"
 #include "dynamics/element/element.hpp"
+#include "dynamics/law/creep_watch.hpp"
 
 namespace clatter::dynamics {
 
@@ -38,7 +39,10 @@ class LinkJoints : public ForceElement {
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, Response& response) override;
   void finish_stage(const Stage&) override { finished_ = last_; }
-  void accept_step(double) override { accepted_ = finished_; }
+  void begin_step(double time) override { creep_.begin_step(time); }
+  void accept_step(double time) override;
+  void archive(Archive& archive) override { creep_.archive(archive); }
+  std::optional<double> crept() const override;
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
 
   /// Force in joint j at the last accepted state, positive where it pulls link j + 1 [N].
@@ -67,6 +71,8 @@ class LinkJoints : public ForceElement {
   // Mutable: working memory, as power() places the links too.
   mutable std::vector<Eigen::Vector2d> halves_;     // from the centre of each link to its front pin
   std::vector<double> last_, finished_, accepted_;  // tensions
+  std::vector<double> slip_;  // of the pins in their bushes at the last state; nan: not pressed
+  CreepWatch creep_;
 };
 
 }  // namespace clatter::dynamics

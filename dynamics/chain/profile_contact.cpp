@@ -25,6 +25,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// Instead of a gap: no contact.
 constexpr int kNone = -1;
+constexpr double kNoSlip = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<int> joined(const std::vector<int>& links, const Port& port) {
   std::vector<int> all = links;
@@ -44,7 +45,10 @@ ProfileContact::ProfileContact(std::string name, const std::vector<int>& links,
       kinds_(make.kinds),
       profile_(std::move(profile)),
       carrier_(std::move(carrier)),
-      teeth_(std::move(teeth)) {
+      teeth_(std::move(teeth)),
+      friction_(law.friction),
+      slip_(make.kinds.size(), kNoSlip),
+      creep_(law.slip_speed, make.kinds.size()) {
   const char* const what[] = {"_force_x", "_force_y", "_depth", "_contacts"};
   for (size_t k = 0; k < recorded_.size(); ++k) {
     recorded_[k] = name_ + what[k];
@@ -215,6 +219,8 @@ bool ProfileContact::touch(int link, const Motion& motion, const Relative& at, d
       sum.wrench += one.wrench;
       sum.stored += one.stored;
       sum.lost += one.lost;
+      sum.load += one.load;
+      sum.slide += one.slide;
       sum.depth = std::max(sum.depth, one.depth);
       if (with_tangent) {
         sum.by_pose += one.by_pose;
@@ -264,12 +270,14 @@ void ProfileContact::evaluate(const Stage& stage, const VectorXd& y, const Vecto
   MattressForce contact;
   for (int j = 0; j < links_; ++j) {
     TangentBlock& block = response.blocks[j];
+    slip_[j] = kNoSlip;
     if (with_tangent) block.active = false;
     if (is_far(j, motion_, y)) continue;
     const Relative at = relative(j, motion_, y, v);
     const bool touches = touch(j, motion_, at, y(3 * j + 2), with_tangent, contact);
     if (with_tangent) block.active = touches;
     if (!touches) continue;
+    slip_[j] = contact.load > 0.0 ? contact.slide / contact.load : kNoSlip;
     add_forces(j, motion_, at, contact, response);
     if (with_tangent) fill_tangent(motion_, at, contact, stage.kappa, block);
   }
@@ -364,9 +372,22 @@ void ProfileContact::fill_tangent(const Motion& motion, const Relative& at,
   }
 }
 
+void ProfileContact::restore(const std::vector<double>& state) {
+  teeth_.restore(state);
+  for (auto& hints : hints_) hints.assign(hints.size(), {});
+  clear_.assign(clear_.size(), {});
+}
+
 void ProfileContact::accept_step(double time) {
   accepted_ = finished_;
   if (profile_->repeats() > 1) teeth_.update(time, gap_);
+  if (friction_ == 0.0) return;
+  for (size_t j = 0; j < slip_.size(); ++j)
+    creep_.accept_step(j, time, !std::isnan(slip_[j]), {slip_[j], 0.0});
+}
+
+std::optional<double> ProfileContact::crept() const {
+  return friction_ > 0.0 ? std::optional(creep_.longest()) : std::nullopt;
 }
 
 Power ProfileContact::power(const VectorXd&, const VectorXd&) const {

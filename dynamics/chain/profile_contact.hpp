@@ -12,6 +12,7 @@
 #include "dynamics/chain/link.hpp"
 #include "dynamics/chain/tooth_count.hpp"
 #include "dynamics/element/element.hpp"
+#include "dynamics/law/creep_watch.hpp"
 #include "dynamics/profile/mattress.hpp"
 
 namespace clatter::dynamics {
@@ -52,7 +53,11 @@ class ProfileContact : public ForceElement {
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
   void record(History& history) const override;
   std::vector<double> save() const override { return teeth_.save(); }
-  void restore(const std::vector<double>& state) override { teeth_.restore(state); }
+  /// Also forgets where links were clear of the profile: the same motion then has the same bits.
+  void restore(const std::vector<double>& state) override;
+  void begin_step(double time) override { creep_.begin_step(time); }
+  void archive(Archive& archive) override { creep_.archive(archive); }
+  std::optional<double> crept() const override;
 
   /// Outlines of all links: bushes or plates.
   int outlines() const;
@@ -136,6 +141,9 @@ class ProfileContact : public ForceElement {
   Totals last_, finished_, accepted_;
   std::vector<int> gap_;  // per link that touches: the tooth gap of its rear pin; else negative
   ToothCount teeth_;
+  double friction_;           // its coefficient
+  std::vector<double> slip_;  // per link at the last state [m/s]; nan: it does not touch
+  CreepWatch creep_;
 };
 
 }  // namespace clatter::dynamics

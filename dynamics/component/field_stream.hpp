@@ -20,7 +20,7 @@ class FieldStream {
   /// A field at one more instant, of the same size each time; an empty one is left out.
   void add(const std::string& name, const RowMatrix& frame);
   void add(const std::string& name, const Eigen::VectorXd& frame);
-  /// Writes what is left.
+  /// Writes what is held, at the end or before.
   void finish();
   /// Numbers in memory.
   int64_t held() const;

@@ -58,9 +58,6 @@ double stick_stiffness(const StopSpec& stop) {
   return kPlaneOverNormal * normal;
 }
 
-/// Way of creep from which it is told [m].
-constexpr double kToldCreep = 1e-6;
-
 bool comes_before(const StopSpec* one, const StopSpec* other) {
   const auto place = [](const StopSpec& stop) {
     return std::tuple(place_of(stop.a), place_of(stop.b),
@@ -136,7 +133,6 @@ void StopComponent::add_elements(ModelBuilder& model) {
   std::stable_sort(ordered.begin(), ordered.end(), comes_before);
   for (const StopSpec* stop : ordered) {
     auto made = make_stop(*stop, model, rigid_);
-    made_.push_back(made.get());
     model.system.add_element(std::move(made));
   }
 }
@@ -151,12 +147,6 @@ std::vector<std::string> StopComponent::warnings() const {
         "plane: set a higher one, or a compliant contact by stiffness_n_m",
         stop->name(), stop->rest_stiffness(), stop->deepest() / kMicro));
   }
-  for (const Stop* stop : made_)
-    if (stop->crept() > kToldCreep)
-      found.push_back(fmt::format(
-          "{}: it crept by {:.3g} um while its friction was below the limit, by slip_speed_m_s: "
-          "without this key it sticks",
-          stop->name(), stop->crept() / kMicro));
   return found;
 }
 

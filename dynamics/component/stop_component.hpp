@@ -38,13 +38,12 @@ class StopComponent : public Component {
   /// behind the plane at the start.
   void add_elements(ModelBuilder& model) override;
   void add_effects(const ModelBuilder& model, EffectTable& effects) const override;
-  /// Rigid contacts that were held too softly, and contacts that crept.
+  /// Rigid contacts that were held too softly.
   std::vector<std::string> warnings() const override;
 
  private:
   std::vector<StopSpec> stops_;
   // Of this copy's model.
-  std::vector<const Stop*> made_;
   std::vector<const RigidStop*> rigid_;
 };
 

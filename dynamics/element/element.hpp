@@ -3,10 +3,12 @@
 // Interface of force elements: forces and their tangent at an implicit stage, internal states under
 // the same tableau, power, and reported scalars.
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "dynamics/law/archive.hpp"
 #include "dynamics/law/history.hpp"
 #include "dynamics/law/stage.hpp"
 
@@ -95,6 +97,11 @@ class ForceElement {
   /// Internal state as numbers, for checkpoints; `restore` takes the result of `save`.
   virtual std::vector<double> save() const { return {}; }
   virtual void restore(const std::vector<double>& /*state*/) {}
+  /// What it has watched of the recorded span, for a checkpoint within that.
+  virtual void archive(Archive&) {}
+  /// The longest way that one of its contacts crept at rest, so far [m]: creep_watch.hpp. Empty
+  /// where no friction of it creeps.
+  virtual std::optional<double> crept() const { return std::nullopt; }
 
  protected:
   ForceElement() = default;

@@ -29,7 +29,10 @@ constexpr double kDampedDepth = 1e-9;
 Stop::Stop(const std::string& name, PointOnPlane pair, const FrictionLaw& friction)
     : ForceElement(pair.coordinates()), pair_(std::move(pair)), friction_(friction), name_(name) {
   recorded_ = {history_name("gap"), history_name("force"), history_name("slip")};
-  if (friction.at_rest > 0.0 && !friction.slip_speed)
+  if (friction.at_rest == 0.0) return;
+  if (friction.slip_speed)
+    creep_.emplace(*friction.slip_speed, 1);
+  else
     bristle_.emplace(friction.stiffness, friction.damping_time * friction.stiffness,
                      friction.kinetic, friction.at_rest);
 }
@@ -66,9 +69,9 @@ void Stop::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v, bo
   time_ = stage.time;
   const PlaneMotion& at = pair_.move(time_, y, v);
   const NormalForce law = normal(std::max(-at.gap, 0.0), -at.rate);
-  const Vector2d slip = this->slip(at);
-  last_ = {at.gap, law.force, slip.norm()};
-  const Bristle::Force against = friction(stage, slip, law.force);
+  slip_ = slip(at);
+  last_ = {at.gap, law.force, slip_.norm()};
+  const Bristle::Force against = friction(stage, slip_, law.force);
   against_ = against.value;
   const Eigen::Matrix<double, 3, 2> tangents = pair_.axes().rightCols<2>();
   const Vector3d in_plane = tangents * against_;
@@ -97,10 +100,8 @@ void Stop::finish_stage(const Stage& stage) {
 
 void Stop::accept_step(double time) {
   accepted_ = finished_;
-  if (bristle_)
-    bristle_->accept_step();
-  else if (friction_.slip_speed && accepted_[1] > 0.0 && accepted_[2] < *friction_.slip_speed)
-    crept_ += accepted_[2] * (time - begun_);
+  if (bristle_) bristle_->accept_step();
+  if (creep_) creep_->accept_step(0, time, accepted_[1] > 0.0, slip_);
 }
 
 Power Stop::power(const VectorXd& y, const VectorXd& v) const {

@@ -10,6 +10,7 @@
 #include "dynamics/element/point_on_plane.hpp"
 #include "dynamics/element/rigid_contact.hpp"
 #include "dynamics/law/bristle.hpp"
+#include "dynamics/law/creep_watch.hpp"
 
 namespace clatter::dynamics {
 
@@ -36,17 +37,23 @@ class Stop : public ForceElement {
   std::string name() const override { return name_; }
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, Response& response) override;
-  void begin_step(double time) override { begun_ = time; }
+  void begin_step(double time) override {
+    if (creep_) creep_->begin_step(time);
+  }
   void finish_stage(const Stage& stage) override;
   void accept_step(double time) override;
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
   void record(History& history) const override;
   double gap() const { return accepted_[0]; }           // [m]
   double normal_force() const { return accepted_[1]; }  // [N]
-  /// The way that the contact crept below its limit, so far [m].
-  double crept() const { return crept_; }
   std::vector<double> save() const override;
   void restore(const std::vector<double>& state) override;
+  void archive(Archive& archive) override {
+    if (creep_) creep_->archive(archive);
+  }
+  std::optional<double> crept() const override {
+    return creep_ ? std::optional(creep_->longest()) : std::nullopt;
+  }
 
  protected:
   Stop(const std::string& name, PointOnPlane pair, const FrictionLaw& friction);
@@ -65,8 +72,10 @@ class Stop : public ForceElement {
   std::string name_;
   std::array<std::string, 3> recorded_;
   std::array<double, 3> last_{}, finished_{}, accepted_{};  // gap, force, slip
-  double time_ = 0.0, begun_ = 0.0, crept_ = 0.0;
+  double time_ = 0.0;
+  Eigen::Vector2d slip_ = Eigen::Vector2d::Zero();  // of the last evaluation [m/s]
   std::optional<Bristle> bristle_;
+  std::optional<CreepWatch> creep_;                    // with a slip speed
   Eigen::Vector2d against_ = Eigen::Vector2d::Zero();  // friction of the last evaluation [N]
   Eigen::RowVectorXd by_normal_;
   Eigen::Matrix2Xd by_slip_, by_against_;
@@ -120,6 +129,10 @@ class RigidStop : public Stop, public RigidContact {
   void accept_step(double time) override {
     Stop::accept_step(time);
     if (held_) deepest_ = std::max(deepest_, -gap());
+  }
+  void archive(Archive& archive) override {
+    Stop::archive(archive);
+    archive(deepest_);
   }
 
   bool is_held() const { return held_; }

@@ -46,6 +46,12 @@ void ErrorEstimate::add(double dt, const Eigen::VectorXd& e_eta, const Eigen::Ve
   }
 }
 
+void ErrorEstimate::archive(Archive& archive) {
+  archive(steps_);
+  archive(sums_);
+  for (std::vector<double>* values : {&largest_, &velocity_, &noise_}) archive(*values);
+}
+
 std::vector<BodyError> ErrorEstimate::bodies(const ErrorWeights& weights) const {
   std::vector<BodyError> found;
   for (size_t b = 0; b < velocity_.size(); ++b) {

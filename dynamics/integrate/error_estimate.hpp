@@ -8,6 +8,7 @@
 #include "dynamics/integrate/accuracy.hpp"
 #include "dynamics/integrate/stage_state.hpp"
 #include "dynamics/integrate/system.hpp"
+#include "dynamics/law/archive.hpp"
 
 namespace clatter::dynamics {
 
@@ -38,6 +39,8 @@ class ErrorEstimate {
   /// All bodies that moved; `weights` are those of the error test.
   std::vector<BodyError> bodies(const ErrorWeights& weights) const;
   long long steps() const { return steps_; }
+  /// What was summed, for checkpoints.
+  void archive(Archive& archive);
 
  private:
   const System* system_;

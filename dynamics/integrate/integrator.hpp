@@ -81,6 +81,7 @@ class Integrator {
   StepStatistics& statistics() { return statistics_; }
   /// The accumulated velocity error of each body, of steps with an error test.
   const ErrorEstimate& estimate() const { return estimate_; }
+  ErrorEstimate& estimate() { return estimate_; }
   const ErrorWeights& weights() const { return weights_; }
   void set_observer(StageObserver* observer) { observer_ = observer; }
 

@@ -47,7 +47,7 @@ void start(bool with_tangent, MattressForce& force) {
     force.by_pose.setZero();
     force.by_rate.setZero();
   }
-  force.stored = force.lost = 0.0;
+  force.stored = force.lost = force.load = force.slide = 0.0;
   force.depth = 0.0;
   force.too_deep = false;
 }
@@ -63,6 +63,8 @@ void add(const PartContact& part, const Vector2d& rotation, bool with_tangent,
   }
   force.stored += sum.stored;
   force.lost += sum.lost;
+  force.load += sum.load;
+  force.slide += sum.slide;
   force.depth = std::max(force.depth, sum.depth);
   force.too_deep = force.too_deep || part.inner_side();
 }

@@ -47,6 +47,7 @@ struct MattressForce {
   Eigen::Matrix3d by_pose;  // d wrench / d(x, y, angle)
   Eigen::Matrix3d by_rate;  // d wrench / d(vx, vy, spin)
   double stored, lost;      // energy of the foundation [J], power of damping and friction [W]
+  double load, slide;       // sum of normal forces [N], and of each times its slip [W]
   /// Largest penetration of a section [m]. Without contact: minus a lower bound of the distance.
   double depth;
   /// A section is compressed by more than half of the outline's radius or lies on the inner side of

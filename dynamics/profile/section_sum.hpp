@@ -97,7 +97,7 @@ class SectionSum {
 
   Eigen::Vector3d wrench = Eigen::Vector3d::Zero();
   Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero(), by_rate = Eigen::Matrix3d::Zero();
-  double stored = 0.0, lost = 0.0, depth = 0.0;
+  double stored = 0.0, lost = 0.0, load = 0.0, slide = 0.0, depth = 0.0;
 
  private:
   struct Factor {
@@ -136,10 +136,12 @@ void SectionSum::add(const ZoneSections& z) {
   const Lanes elastic = kappa_b * u, force = elastic * g.value, friction = mu * share.value;
   const Lanes direction[3] = {mx - friction * tx, my - friction * ty, at.lever - friction * at.arm};
   depth = std::max(depth, u.maxCoeff());
-  const Lanes load = length * force;
+  const Lanes load = length * force, sliding = load * slip;
+  this->load += load.sum();
+  slide += sliding.sum();
   for (int i = 0; i < 3; ++i) wrench[i] += (load * direction[i]).sum();
   stored += 0.5 * (length * elastic * u).sum();
-  lost += (length * (elastic - force) * apart + load * friction * slip).sum();
+  lost += (length * (elastic - force) * apart + friction * sliding).sum();
   if constexpr (kTangent) {
     const Lanes J[3] = {mx, my, at.lever}, T[3] = {tx, ty, at.arm};
     const Lanes flat[3] = {mx, my, Lanes::Zero()};

@@ -26,6 +26,7 @@ Checkpoint state_in(const H5File& file) {
     if (file.has(name)) point.elements[e] = file.read_doubles(name);
   }
   point.energy = file.read_doubles("energy");
+  if (file.has("recorded")) point.recorded = file.read_doubles("recorded");
   StepStatistics& s = point.statistics;
   const auto counts = file.read_longs("statistics");
   const auto seconds = file.read_doubles("seconds");
@@ -88,6 +89,7 @@ void CheckpointFile::commit(const Checkpoint& point, const std::string& fingerpr
     if (!point.elements[e].empty()) file_.write(fmt::format("elements/{}", e), point.elements[e]);
   }
   file_.write("energy", point.energy);
+  if (!point.recorded.empty()) file_.write("recorded", point.recorded);
   const StepStatistics& s = point.statistics;
   file_.write("statistics", std::vector<int64_t>{s.accepted, s.rejected_error, s.rejected_newton,
                                                  s.rejected_refused, s.stages, s.evaluations,

@@ -22,7 +22,7 @@ class ColumnStream {
   size_t columns() const { return names_.size(); }
   /// One number for each column.
   void add(const std::vector<double>& row);
-  /// Writes what is left; columns without any row become empty datasets.
+  /// Writes what is held, at the end or before; columns without any row become empty datasets.
   void finish();
 
   int64_t rows() const { return rows_; }  // so far

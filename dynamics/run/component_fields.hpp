@@ -5,6 +5,7 @@
 
 #include "dynamics/component/component_interfaces.hpp"
 #include "dynamics/component/field_stream.hpp"
+#include "dynamics/law/archive.hpp"
 #include "dynamics/run/column_stream.hpp"
 #include "dynamics/run/model.hpp"
 
@@ -20,8 +21,10 @@ class ComponentFields {
                   double cycle);
   /// After each accepted step.
   void record(const StageState& now);
-  /// Writes what is left.
+  /// Writes what is held, at the end or before.
   void finish();
+  /// When the next fields are due.
+  void archive(Archive& archive) { archive(next_); }
   /// Numbers in memory.
   int64_t held() const { return clock_.held() + fields_.held(); }
 

@@ -34,6 +34,13 @@ std::unique_ptr<Model> model_of(const Scene& scene, const LoadedBodies& bodies, 
   return build_model(later, bodies);
 }
 
+std::string creep_text(const std::string& name, double crept) {
+  return fmt::format(
+      "{}: it crept by {:.3g} um at rest, while its friction was below the limit: a smaller "
+      "slip_speed_m_s creeps less; [[stop]] sticks without this key",
+      name, crept / kMicro);
+}
+
 }  // namespace
 
 int most_cycles(const Scene& scene) { return scene.clock ? scene.time.cycles : 1; }
@@ -41,6 +48,7 @@ int most_cycles(const Scene& scene) { return scene.clock ? scene.time.cycles : 1
 CycleRun::CycleRun(const Scene& scene, const LoadedBodies& bodies, const Checkpoint& from,
                    const std::filesystem::path& output)
     : scene_(scene),
+      point_(checkpoint_path(output)),
       bodies_(bodies),
       completed_(from.cycle),
       span_(span_after(scene, from.cycle)),
@@ -56,16 +64,18 @@ CycleRun::CycleRun(const Scene& scene, const LoadedBodies& bodies, const Checkpo
     forces_.add(std::make_unique<ForceRecord>(*model_, bodies, spec, *scene.steps.method, *file_,
                                               span_.begin, span_.end, output_step_));
   method_->set_observer(&forces_);
-  const std::filesystem::path point = checkpoint_path(output);
-  if (from.cycle == 0) {
+  if (from.state.eta.size() == 0) {
     start();
   } else {
-    from_checkpoint(point, [&] {
+    from_checkpoint(point_, [&] {
       restore(from);
-      if (span_.cycles == 1) compare_with(H5File::open(point));
+      if (from.cycle > 0 && span_.cycles == 1) compare_with(H5File::open(point_));
     });
   }
-  if (span_.cycles > 1 || from.cycle + 1 < most_cycles(scene)) next_.emplace(point);
+  if (span_.cycles > 1 || from.cycle + 1 < most_cycles(scene)) next_.emplace(point_);
+  recorder_.start(method_->state());
+  forces_.start(span_.begin);
+  if (!from.recorded.empty()) from_checkpoint(point_, [&] { take_up(from, H5File::open(point_)); });
   begin_ = method_->state();
 }
 
@@ -99,8 +109,26 @@ void CycleRun::compare_with(H5File before) {
   before_.emplace(*model_, std::move(before), sample_count(span_.cycle, output_step_), span_.cycle);
 }
 
+/// Goes on with what was recorded before a checkpoint within the span.
+void CycleRun::take_up(const Checkpoint& from, const H5File& file) {
+  file_->copy(file, kRunSoFar, "/");
+  Archive recorded(from.recorded);
+  archive(recorded);
+  if (!recorded.is_used_up()) throw InputError("recorded: found too many numbers");
+}
+
+/// What has summed up over the span, besides states.
+void CycleRun::archive(Archive& archive) {
+  recorder_.archive(archive);
+  forces_.archive(archive);
+  energy_.archive(archive);
+  method_->estimate().archive(archive);
+  for (int e = 0; e < model_->system.elements(); ++e) model_->system.element(e).archive(archive);
+  archive(most_held_);
+}
+
 /// What elements and integrator keep besides their states is forgotten, as after a checkpoint.
-void CycleRun::start_next_cycle() {
+void CycleRun::begin_again() {
   for (int e = 0; e < model_->system.elements(); ++e) {
     ForceElement& element = model_->system.element(e);
     element.restore(element.save());
@@ -113,9 +141,8 @@ void CycleRun::finish() {
   forces_.finish();
 }
 
-bool CycleRun::run(const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
-  recorder_.start(method_->state());
-  forces_.start(span_.begin);
+bool CycleRun::run(const std::function<void(double)>& progress,
+                   const std::function<void()>& at_point, const std::atomic<bool>* stop) {
   for (int left = span_.cycles; left > 0; --left) {
     const double end = span_.end_of_cycle(left);
     while (method_->state().time < end) {
@@ -125,9 +152,12 @@ bool CycleRun::run(const std::function<void(double)>& progress, const std::atomi
       pressure_.look(*model_, recorder_.last(), method_->state().time);
       most_held_ = std::max(most_held_, recorder_.held() + forces_.held());
       progress(method_->state().time);
+      if (scene_.clock || method_->statistics().accepted % kStepsBetween != 0) continue;
+      begin_again();
+      at_point();
     }
     ++completed_;
-    if (left > 1) start_next_cycle();
+    if (left > 1) begin_again();
   }
   return true;
 }
@@ -147,7 +177,7 @@ void CycleRun::pass_on(const SampleBlock& block) {
   before_->add(block.between(last, end));
 }
 
-Checkpoint CycleRun::next() const {
+Checkpoint CycleRun::here() const {
   Checkpoint point;
   point.cycle = completed_;
   point.state = method_->state();
@@ -155,7 +185,20 @@ Checkpoint CycleRun::next() const {
   for (int e = 0; e < model_->system.elements(); ++e)
     point.elements.push_back(model_->system.element(e).save());
   point.energy = energy_.save();
+  return point;
+}
+
+Checkpoint CycleRun::next() const {
+  Checkpoint point = here();
   if (scene_.time.settle > 0.0) settle(point);
+  return point;
+}
+
+Checkpoint CycleRun::within() {
+  Checkpoint point = here();
+  Archive recorded;
+  archive(recorded);
+  point.recorded = std::move(recorded).numbers();
   return point;
 }
 
@@ -168,7 +211,10 @@ void CycleRun::settle(Checkpoint& point) const {
 }
 
 void CycleRun::commit(const Checkpoint& point, const std::string& mark) {
-  if (next_) next_->commit(point, mark);
+  std::optional<CheckpointFile> file = std::exchange(next_, std::nullopt);
+  if (!file) file.emplace(point_);
+  if (!point.recorded.empty()) file->copy(*file_);
+  file->commit(point, mark);
 }
 
 void CycleRun::write_end() {
@@ -197,6 +243,14 @@ void CycleRun::report(RunResult& result) const {
   for (const auto& [name, contact] : contacts_of(*model_)) {
     const auto oil = contact->oil_balance();
     if (oil && (!result.oil || oil->residue() > result.oil->residue())) result.oil = oil;
+  }
+  result.creep.reset();
+  for (int e = 0; e < model_->system.elements(); ++e) {
+    const ForceElement& element = model_->system.element(e);
+    const std::optional<double> crept = element.crept();
+    if (!crept) continue;
+    result.creep = std::max(result.creep.value_or(0.0), *crept);
+    if (*crept > kLongestCreep) result.warnings.push_back(creep_text(element.name(), *crept));
   }
   for (const auto& component : model_->components)
     for (const std::string& warning : component->warnings()) result.warnings.push_back(warning);

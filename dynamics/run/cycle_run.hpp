@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A span of a run, from a checkpoint to the next: one cycle, or the recorded ones.
+// A span of a run: one cycle, or the recorded ones, or a scene without cycles.
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
@@ -36,22 +36,26 @@ struct Span {
 /// on how many are recorded.
 class CycleRun {
  public:
-  /// From the start of the scene where `from.cycle` is 0, else from that checkpoint, which is
+  /// From the start of the scene where `from` has no state, else from that checkpoint, which is
   /// beside `output`. All arguments outlive this. InputError for a damaged checkpoint.
   CycleRun(const Scene& scene, const LoadedBodies& bodies, const Checkpoint& from,
            const std::filesystem::path& output);
   CycleRun(const CycleRun&) = delete;
   CycleRun& operator=(const CycleRun&) = delete;
 
-  /// False when it was stopped before the end.
-  bool run(const std::function<void(double)>& progress, const std::atomic<bool>* stop);
+  /// False when it was stopped before the end. `at_point` is called where there may be a checkpoint
+  /// within the span.
+  bool run(const std::function<void(double)>& progress, const std::function<void()>& at_point,
+           const std::atomic<bool>* stop);
   /// Writes what is left, at the end of the span or earlier.
   void finish();
 
   /// The end of the span, from which the next one starts. A scene that settles is moved to where
   /// its slow motion repeats, and its clock is turned back.
   Checkpoint next() const;
-  /// Writes the checkpoint of a span that another one follows.
+  /// Within a span, where run() calls `at_point`.
+  Checkpoint within();
+  /// Writes the checkpoint next(), or within().
   void commit(const Checkpoint& point, const std::string& mark);
   /// The end of the run goes to the run file.
   void write_end();
@@ -73,11 +77,15 @@ class CycleRun {
   void start();
   void restore(const Checkpoint& from);
   void compare_with(H5File before);
-  void start_next_cycle();
+  void take_up(const Checkpoint& from, const H5File& file);
+  Checkpoint here() const;
+  void archive(Archive& archive);
+  void begin_again();
   void pass_on(const SampleBlock& block);
   void settle(Checkpoint& point) const;
 
   const Scene& scene_;
+  std::filesystem::path point_;  // of the checkpoint
   const LoadedBodies& bodies_;
   int completed_;
   Span span_;

@@ -109,6 +109,17 @@ void EnergyBalance::restore(const std::vector<double>& state, double time) {
   start_from(stages_[0]);
 }
 
+void EnergyBalance::archive(Archive& archive) {
+  for (double* value : {&now_.time, &now_.kinetic, &now_.strain, &now_.element, &now_.lost,
+                        &now_.input, &now_.exchanged, &stored_at_start_})
+    archive(*value);
+  archive(now_.terms);
+  for (Span& span : spans_) {
+    archive(span.low);
+    archive(span.high);
+  }
+}
+
 void EnergyBalance::reset() {
   now_.time = time_;
   now_.lost = now_.input = now_.exchanged = 0.0;

@@ -8,6 +8,7 @@
 
 #include "dynamics/integrate/integrator.hpp"
 #include "dynamics/integrate/system.hpp"
+#include "dynamics/law/archive.hpp"
 
 namespace clatter::dynamics {
 
@@ -45,6 +46,8 @@ class EnergyBalance : public StageObserver {
   /// them.
   std::vector<double> save() const;
   void restore(const std::vector<double>& state, double time);
+  /// The sums, for a checkpoint at which they do not restart.
+  void archive(Archive& archive);
   /// |imbalance()| over exchanged(), at least over `least` [J]: of what hardly moves the imbalance
   /// is rounding of what little is exchanged. 0 when nothing moved.
   double residue(double least = 0.0) const;

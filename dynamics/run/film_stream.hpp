@@ -8,6 +8,7 @@
 #include "core/base/h5_file.hpp"
 #include "dynamics/component/field_stream.hpp"
 #include "dynamics/film/piston_liner.hpp"
+#include "dynamics/law/archive.hpp"
 
 namespace clatter::dynamics {
 
@@ -20,8 +21,10 @@ class FilmStream {
       : file_(&file), contact_(&contact), group_(std::move(group)), fields_(file) {}
   /// The fields of all pads of the last accepted state.
   void add();
-  /// Writes what is left.
+  /// Writes what is held, at the end or before.
   void finish() { fields_.finish(); }
+  /// Whether the file has the cell centres.
+  void archive(Archive& archive) { archive(first_); }
   /// Numbers in memory.
   int64_t held() const { return fields_.held(); }
 

@@ -118,6 +118,16 @@ void ForceRecord::accept(double dt) {
   samples_.add(before_, now_);
 }
 
+void ForceRecord::archive(Archive& archive) {
+  samples_.archive(archive);
+  archive(stages_[0]);
+  archive(time_);
+  archive(now_.time);
+  archive(now_.eta);
+  archive(now_.v);
+  archive(now_.a);
+}
+
 void ForceRecord::write(const SampleBlock& block) {
   file_.append(dataset_, RowMatrix(block.a.topRows(block.count) * to_reduced_.transpose()));
   if (block.first == 0) file_.set(dataset_, "unit", "N");
@@ -139,6 +149,10 @@ void ForceRecords::start(double time) {
 
 void ForceRecords::finish() {
   for (const auto& record : records_) record->finish();
+}
+
+void ForceRecords::archive(Archive& archive) {
+  for (const auto& record : records_) record->archive(archive);
 }
 
 int64_t ForceRecords::held() const {

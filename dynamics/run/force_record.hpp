@@ -35,6 +35,8 @@ class ForceRecord {
   void accept(double dt);
   /// Writes what is left.
   void finish() { samples_.finish(); }
+  /// What a checkpoint within the span keeps besides what the file has.
+  void archive(Archive& archive);
   /// Numbers in memory.
   int64_t held() const { return samples_.held(); }
 
@@ -71,6 +73,7 @@ class ForceRecords : public StageObserver {
   void accept(double dt) override;
   void start(double time);
   void finish();
+  void archive(Archive& archive);
   int64_t held() const;
 
  private:

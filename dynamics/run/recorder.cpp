@@ -73,6 +73,18 @@ void Recorder::record_energy(const EnergyBalance& energy) {
 
 void Recorder::finish() {
   samples_.finish();
+  write_held();
+}
+
+void Recorder::archive(Archive& archive) {
+  write_held();
+  samples_.archive(archive);
+  archive(next_film_);
+  for (FilmStream& film : films_) film.archive(archive);
+  for (ComponentFields& fields : fields_) fields.archive(archive);
+}
+
+void Recorder::write_held() {
   history_.finish();
   energy_.finish();
   if (film_clock_.rows() > 0) film_clock_.finish();

@@ -34,6 +34,9 @@ class Recorder {
   void record(const Integrator& method, const EnergyBalance& energy);
   /// Writes what is left, also of a span that ends early.
   void finish();
+  /// What a checkpoint within the span keeps besides what the file has: all but a block of samples
+  /// is written before.
+  void archive(Archive& archive);
 
   /// The scalars of the last accepted state.
   const History& last() const { return last_; }
@@ -44,6 +47,7 @@ class Recorder {
  private:
   void add_clock(double time);
   void record_energy(const EnergyBalance& energy);
+  void write_held();
   const Model& model_;
   UniformSamples samples_;
   History last_;

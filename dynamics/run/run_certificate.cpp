@@ -22,6 +22,10 @@ const std::vector<CertificateField<RunCertificate>>& RunCertificate::fields() {
        "a scene has [contact.liner_oil]",
        good_up_to(0.01, "the film loses oil: a finer mesh or smaller steps")},
       {"oil_moved", &C::oil_moved, "m3", "what moved there"},
+      {"creep", &C::creep, "m",
+       "longest way that a contact crept at rest, because its friction has a slip speed; absent "
+       "where none has",
+       good_up_to(kLongestCreep, "a smaller slip_speed_m_s creeps less; a stop without it sticks")},
       {"complete", &C::complete, "", "1: it ran to the end"},
       {"cycles", &C::cycles, "", "completed cycles; 1 for a scene without an engine"},
       {"steps_accepted", &C::steps_accepted, "", "accepted steps"},

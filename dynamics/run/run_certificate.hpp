@@ -21,6 +21,11 @@ struct CycleDifference {
   bool operator==(const CycleDifference&) const = default;
 };
 
+/// A way of creep (creep_watch.hpp) from which a run says so [m]. Bushes that rest in the teeth of
+/// a running drive creep by a tenth of it, which changes its motion by less than the step tolerance
+/// (hard case TD11); what stays at rest goes on.
+inline constexpr double kLongestCreep = 1e-4;
+
 /// The certificate of a run. fields() has the unit and meaning of each member, which are named as
 /// in the file; those of CycleDifference are named periodicity_lateral,
 /// periodicity_tilt, those of named cylinders and `periodicity_<body>`.
@@ -28,6 +33,7 @@ struct RunCertificate : CycleDifference {
   double energy_residue = 0.0, energy_exchanged = 0.0;
   std::optional<double> energy_imbalance{};  // absent in older files
   std::optional<double> oil_residue{}, oil_moved{};
+  std::optional<double> creep{};
   double complete = 0.0, cycles = 0.0, steps_accepted = 0.0, steps_rejected = 0.0;
 
   static const std::vector<CertificateField<RunCertificate>>& fields();

@@ -48,6 +48,7 @@ RunCertificate run_certificate(const RunResult& result) {
     numbers.oil_residue = result.oil->residue();
     numbers.oil_moved = result.oil->moved;
   }
+  numbers.creep = result.creep;
   numbers.complete = result.complete ? 1.0 : 0.0;
   numbers.cycles = result.cycles;
   const StepStatistics& s = result.statistics;

@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/progress.hpp"
+#include "core/base/stopwatch.hpp"
 #include "dynamics/run/cycle_run.hpp"
 
 namespace clatter::dynamics {
@@ -25,6 +27,41 @@ std::map<std::string, double> seconds_by_element(const Model& model) {
   for (const auto& cost : model.system.costs()) seconds[cost.name] += cost.seconds;
   return seconds;
 }
+
+/// Checkpoints within a span, which take a small part of the time.
+class Checkpoints {
+ public:
+  Checkpoints(const Scene& scene, double seconds) : scene_(scene), between_(seconds) {}
+
+  /// Writes one where it is due. One that the disk does not take is left out with a warning.
+  void look(CycleRun& run, const StepStatistics& before) {
+    if (since_.seconds() < between_) return;
+    const Stopwatch clock;
+    Checkpoint point = run.within();
+    point.statistics = before;
+    point.statistics += run.statistics();
+    try {
+      run.commit(point, mark());
+    } catch (const FileError& error) {
+      warn(fmt::format("no checkpoint at {:.6g} s, the run goes on: {}", point.state.time,
+                       error.what()));
+    }
+    between_ = std::max(between_, kSecondsBySecond * clock.seconds());
+    since_ = Stopwatch();
+  }
+  /// Fingerprint of the scene.
+  const std::string& mark() {
+    if (mark_.empty()) mark_ = fingerprint(scene_);
+    return mark_;
+  }
+
+ private:
+  static constexpr double kSecondsBySecond = 20.0;  // of the run, by those for checkpoints
+  const Scene& scene_;
+  double between_;
+  Stopwatch since_;
+  std::string mark_;
+};
 
 /// Degrees of the crank, or seconds, in a second.
 double per_second(const Scene& scene) {
@@ -65,7 +102,7 @@ RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunCont
   RunResult result;
   Checkpoint point = control.resume_from ? *control.resume_from : first_point(scene);
   const int cycles = most_cycles(scene);
-  const std::string mark = cycles > 1 ? fingerprint(scene) : "";
+  Checkpoints checkpoints(scene, control.checkpoint_seconds);
   const double factor = per_second(scene);
   const double length = scene.clock ? scene.clock->cycle() : scene.time.end - scene.time.begin;
   Progress progress(control.label, factor * length * cycles, scene.clock ? "deg" : "s");
@@ -79,7 +116,7 @@ RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunCont
     try {
       finished = cycle.run(
           [&](double t) { progress.update(factor * (point.cycle * length + t - span.begin)); },
-          control.stop);
+          [&] { checkpoints.look(cycle, point.statistics); }, control.stop);
     } catch (const NumericsError& error) {
       result.failure = error.what();
     }
@@ -96,7 +133,7 @@ RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunCont
       if (!result.complete) {
         point = cycle.next();
         point.statistics = result.statistics;
-        cycle.commit(point, mark);
+        cycle.commit(point, checkpoints.mark());
       } else {
         cycle.write_end();
         if (scene.time.settle > 0.0 && !settled)

@@ -32,18 +32,22 @@ struct RunResult {
   double energy_exchanged = 0.0;        // [J]
   double energy_imbalance = 0.0;        // [J]
   std::optional<film::OilBalance> oil;  // of the contact that misses most of it; none remembered
+  std::optional<double> creep;          // longest of the contacts [m]: ForceElement::crept()
   CycleDifference periodicity;          // of the last two cycles
   std::vector<std::string> warnings;  // of the recorded cycles: accuracy, film pressure, components
 };
 
 struct RunControl {
   /// The run file, written as `output.part`; each cycle replaces that of the cycle before, up
-  /// to the recorded ones. After each cycle before them there is a checkpoint beside it,
-  /// checkpoint_path(output).
+  /// to the recorded ones. Beside it is a checkpoint, checkpoint_path(output): after each cycle
+  /// before them, and without cycles now and then.
   std::filesystem::path output;
   std::optional<Checkpoint> resume_from;    // read from that checkpoint
   const std::atomic<bool>* stop = nullptr;  // set by the caller: stop after a step
   std::string label = "integrating";        // of the progress
+  /// Between checkpoints of a run without cycles, at least [s of the clock]; more where writing one
+  /// takes long.
+  double checkpoint_seconds = 60.0;
 };
 
 /// Starts from rest at the ideal position of every body (all deviations zero, so every gap is the

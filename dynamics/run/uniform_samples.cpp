@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/error.hpp"
+
 namespace clatter::dynamics {
 
 SampleBlock SampleBlock::between(int64_t from, int64_t to) const {
@@ -74,6 +76,16 @@ void UniformSamples::add(const StageState& previous, const StageState& now) {
   const double half = 0.5 * block_.step, slack = 1e-6 * block_.step;
   const auto next = [&] { return block_.begin + half * static_cast<double>(halves_ + 1); };
   while (count_ < total_ && next() <= now.time + slack) take(previous, now, next());
+}
+
+void UniformSamples::archive(Archive& archive) {
+  archive(count_);
+  archive(halves_);
+  archive(v_half_);
+  archive(block_.first);
+  archive(block_.count);
+  if (block_.count > block_.eta.rows()) throw InputError("samples: found too many in a block");
+  for (RowMatrix* rows : {&block_.eta, &block_.v, &block_.a}) archive.rows(*rows, block_.count);
 }
 
 void UniformSamples::finish() {

@@ -7,6 +7,7 @@
 
 #include "core/base/matrix.hpp"
 #include "dynamics/integrate/stage_state.hpp"
+#include "dynamics/law/archive.hpp"
 
 namespace clatter::dynamics {
 
@@ -46,6 +47,8 @@ class UniformSamples {
   void add(const StageState& previous, const StageState& now);
   /// Passes on what is left; the samples end here.
   void finish();
+  /// What is held, for the same span; the sink has the blocks before.
+  void archive(Archive& archive);
 
   int64_t count() const { return count_; }  // samples taken so far
   /// Numbers in memory.

@@ -41,7 +41,11 @@ class RollerContact : public ForceElement {
   /// often the roller has lost the cam. Spaces of the name are underscores.
   void record(History& history) const override;
   std::vector<double> save() const override { return losses_.save(); }
-  void restore(const std::vector<double>& state) override { losses_.restore(state, name_); }
+  /// Also forgets where the roller was clear of the cam.
+  void restore(const std::vector<double>& state) override {
+    losses_.restore(state, name_);
+    hint_ = {};
+  }
 
   struct Instant {
     double force = 0.0, depth = 0.0, gap = 0.0;  // [N], [m]

@@ -116,9 +116,9 @@ class Field(Artefact):
 
     def level_error_dba(self, panel=None) -> float:
         """Standard error [dB] of `level_dba` of a mean over several segments, as cycles; nan of one segment."""
-        power = fields.radiated(self.file, self._at).power if panel is None else f"{self._at}/{self._panel(panel)}/erp"
-        group, _, name = power.rpartition("/")
-        return float(self.file[group].attrs.get(f"{name}_standard_error_dba", np.nan))
+        if panel is None:
+            return fields.radiated(self.file, self._at).error
+        return fields.standard_error(self.file[f"{self._at}/{self._panel(panel)}"], "erp")
 
     def third_octaves(self, panel=None) -> tuple:
         """(mid-bands, b [Hz]; A-weighted levels, b [dB re 1 pW]) of the same power."""

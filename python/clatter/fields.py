@@ -27,6 +27,18 @@ def piece(field, *wanted):
                       + (" (of a run with cycles, and cycle = true in its field.toml)" if wanted == ("cycle",) else ""))
 
 
+def mean_of_cycles(field):
+    """(name of the window that is the mean over most cycles, how many), or (None, 1) where no window is one."""
+    cycles = {name: int(one.attrs.get("averages", 1)) for name, one in field.get("analysis", {}).items() if text(one.attrs.get("periodic", "no")) == "yes"}
+    most = max(cycles.values(), default=1)
+    return next((name for name, count in cycles.items() if count == most), None) if most > 1 else None, most
+
+
+def level_piece(field):
+    """Path of the piece whose levels a run is known by: the mean over its cycles where the file has one, else its cycle, else its first piece."""
+    return piece(field, *(name for name in (mean_of_cycles(field)[0], "cycle", *pieces(field)) if name))
+
+
 def sensor_names(field, at):
     return sorted(field[f"{at}/sensors"]) if f"{at}/sensors" in field else []
 
@@ -87,20 +99,36 @@ class Radiated(typing.NamedTuple):
     power: str    # per line [W]
     bands: str    # per third octave [dB(A) re 1 pW]
     dba: float    # total [dB(A) re 1 pW]
+    error: float  # standard error of the total [dB]; nan of one segment
+
+    def level(self):
+        """"92.7", or of a mean "92.7 ± 0.26"."""
+        return f"{self.dba:.1f}{error_text(self.error)}"
+
+
+def error_text(error):
+    """" ± 0.26"; empty where there is none."""
+    return "" if np.isnan(error) else f" ± {error:.2f}"
+
+
+def standard_error(group, level, unit="dba"):
+    """Of a level of a panel or of the sound, which is "erp" or "power" [dB]; nan of one segment."""
+    return float(group.attrs.get(f"{level}_standard_error_{unit}", np.nan))
 
 
 def sound_power(field, at):
     """The sound power of a piece, or None where the field file has none."""
     if f"{at}/sound" not in field:
         return None
-    return Radiated("sound power", f"{at}/sound/power", f"{at}/sound/third_octave/power_dba", float(field[f"{at}/sound"].attrs["power_dba"]))
+    return Radiated("sound power", f"{at}/sound/power", f"{at}/sound/third_octave/power_dba", float(field[f"{at}/sound"].attrs["power_dba"]),
+                    standard_error(field[f"{at}/sound"], "power"))
 
 
 def radiated_estimate(field, at):
     """The ERP of a piece, of the exposed faces where the file has them."""
     where = panel(field, at, "exposed", "skin")
     return Radiated(f"ERP of panel “{where.rpartition('/')[2]}”", f"{where}/erp", f"{where}/third_octave/erp_dba",
-                    float(field[where].attrs["erp_dba"]))
+                    float(field[where].attrs["erp_dba"]), standard_error(field[where], "erp"))
 
 
 def radiated(field, at):

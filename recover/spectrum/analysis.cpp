@@ -2,6 +2,7 @@
 #include "recover/spectrum/analysis.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "recover/spectrum/piece_samples.hpp"
 
@@ -29,8 +30,8 @@ Eigen::VectorXd panel_powers(const PanelForm& form, const LineSpectrum& velocity
 }
 
 PanelResult radiate(const PanelForm& form, const LineSpectrum& velocity,
-                    const Eigen::VectorXd& mean_square, const RowMatrix& v,
-                    const ThirdOctaves& bands, const Options& options, bool with_samples) {
+                    const Eigen::VectorXd& mean_square, const ThirdOctaves& bands,
+                    const Options& options) {
   PanelResult result{.name = form.name, .area = form.area};
   result.mean_square_velocity = mean_square;
   const double to_power = equivalent_radiated_power(options.air, form.area, 1.0);
@@ -50,42 +51,65 @@ PanelResult radiate(const PanelForm& form, const LineSpectrum& velocity,
     result.total_erp += result.erp[k];
     result.total_erp_a += weighted[k];
   }
-  if (with_samples) result.instant_mean_square = normal_velocity_integral(form.W, v) / form.area;
   return result;
 }
 
-/// Powers of the segments of a piece, averaged. The first segment is `axis`, with its amplitudes.
-template <typename Powers>
-auto averaged(const Piece& piece, const RowMatrix& samples, double to_hz, const LineSpectrum& axis,
+/// Powers of the segments of a piece, averaged. The first segment is `axis`, with its amplitudes;
+/// samples(k) are those of segment k.
+template <typename Samples, typename Powers>
+auto averaged(const Piece& piece, const Samples& samples, double to_hz, const LineSpectrum& axis,
               const Powers& powers) {
   auto sum = powers(axis);
   const int64_t segments = piece.segments();
   for (int64_t k = 1; k < segments; ++k) {
-    const Piece segment = segment_of(piece, k);
-    sum += powers(line_spectrum(segment, samples.middleRows(k * piece.hop, segment.count), to_hz));
+    sum += powers(line_spectrum(segment_of(piece, k), samples(k), to_hz));
   }
   sum /= static_cast<double>(segments);
   return sum;
 }
 
-/// Spectrum of the first segment of a piece.
-LineSpectrum first_segment(const Piece& piece, const RowMatrix& samples, double to_hz) {
-  const Piece segment = segment_of(piece, 0);
-  return line_spectrum(segment, samples.topRows(segment.count), to_hz);
+/// Rows of one segment of a piece.
+RowMatrix segment_rows(const Piece& piece, const RowMatrix& samples, int64_t k) {
+  return samples.middleRows(k * piece.hop, segment_of(piece, k).count);
 }
 
-SensorResult observe(const Sensor& sensor, const Piece& piece, const RowMatrix& q,
-                     const RowMatrix& v, const RowMatrix& a, const ThirdOctaves& bands,
-                     double to_hz, const LevelReferences& references) {
-  SensorResult result{.sensor = &sensor};
-  result.displacement = q * sensor.rows.transpose();
-  result.velocity = v * sensor.rows.transpose();
-  result.acceleration = a * sensor.rows.transpose();
+/// Spectrum of the first segment of a piece.
+LineSpectrum first_segment(const Piece& piece, const RowMatrix& samples, double to_hz) {
+  return line_spectrum(segment_of(piece, 0), segment_rows(piece, samples, 0), to_hz);
+}
+
+/// Motions of the sensors over a piece.
+std::vector<SensorResult> follow(const RunBody& body, const Piece& piece, Eigen::Index coordinates,
+                                 const std::vector<Sensor>& sensors) {
+  std::vector<SensorResult> found;
+  for (const Sensor& sensor : sensors) {
+    SensorResult& result = found.emplace_back();
+    result.sensor = &sensor;
+    result.displacement = result.velocity = result.acceleration =
+        RowMatrix(piece.count, sensor.rows.rows());
+  }
+  const std::pair<const char*, RowMatrix SensorResult::*> quantities[] = {
+      {"q", &SensorResult::displacement},
+      {"v", &SensorResult::velocity},
+      {"a", &SensorResult::acceleration}};
+  for (const auto& [quantity, member] : quantities) {
+    if (sensors.empty()) break;
+    for_each_block(body, piece, quantity, coordinates, [&](int64_t first, const RowMatrix& rows) {
+      for (SensorResult& one : found)
+        (one.*member).middleRows(first, rows.rows()) = rows * one.sensor->rows.transpose();
+    });
+  }
+  return found;
+}
+
+void observe(const Piece& piece, const ThirdOctaves& bands, double to_hz,
+             const LevelReferences& references, SensorResult& result) {
   const LineSpectrum displacement = first_segment(piece, result.displacement, to_hz);
   const LineSpectrum velocity = first_segment(piece, result.velocity, to_hz);
   const LineSpectrum acceleration = first_segment(piece, result.acceleration, to_hz);
   const auto powers = [&](const RowMatrix& samples, const LineSpectrum& first) {
-    return averaged(piece, samples, to_hz, first, line_powers);
+    const auto rows = [&](int64_t k) { return segment_rows(piece, samples, k); };
+    return averaged(piece, rows, to_hz, first, line_powers);
   };
   const Eigen::MatrixXd velocity_powers = powers(result.velocity, velocity);
   const Eigen::MatrixXd acceleration_powers = powers(result.acceleration, acceleration);
@@ -96,12 +120,11 @@ SensorResult observe(const Sensor& sensor, const Piece& piece, const RowMatrix& 
     result.displacement_powers = powers(result.displacement, displacement);
     result.velocity_powers = velocity_powers;
     result.acceleration_powers = acceleration_powers;
-    return result;
+    return;
   }
   result.displacement_lines = displacement.amplitude;
   result.velocity_lines = velocity.amplitude;
   result.acceleration_lines = acceleration.amplitude;
-  return result;
 }
 
 /// Run times and crank angles of the values of a piece, from firing TDC.
@@ -127,10 +150,13 @@ Analysis analyse(const RunBody& body, const Piece& piece, const Options& options
                  const std::vector<PanelForm>& forms, const std::vector<Sensor>& sensors) {
   const RunClock& clock = body.clock();
   to_hz = piece.limit_hz(to_hz, clock.step_s);
-  const RowMatrix v = piece_samples(body, piece, "v");
+  const Eigen::Index coordinates = forms.front().W.rows();
+  const auto segment_v = [&](int64_t k) {
+    return piece_samples(body, piece, "v", k * piece.hop, segment_of(piece, k).count).value();
+  };
   Analysis analysis{.piece = piece, .speed_hz = piece.mean_speed_hz};
   set_axes(clock, analysis);
-  analysis.velocity = first_segment(piece, v, to_hz);
+  analysis.velocity = line_spectrum(segment_of(piece, 0), segment_v(0), to_hz);
   const LineSpectrum& lines = analysis.velocity;
   analysis.bands =
       third_octaves(options.spectrum.from_hz,
@@ -147,21 +173,24 @@ Analysis analyse(const RunBody& body, const Piece& piece, const Options& options
     }
     return columns;
   };
-  const Eigen::MatrixXd mean_square = averaged(piece, v, to_hz, analysis.velocity, powers);
+  const Eigen::MatrixXd mean_square = averaged(piece, segment_v, to_hz, analysis.velocity, powers);
   for (size_t p = 0; p < forms.size(); ++p) {
     analysis.panels.push_back(radiate(forms[p], analysis.velocity,
-                                      mean_square.col(static_cast<Eigen::Index>(p)), v,
-                                      analysis.bands, options, p == 0 || options.output.samples));
-    analysis.panels.back().erp_error = totals[p].error(averages);
+                                      mean_square.col(static_cast<Eigen::Index>(p)), analysis.bands,
+                                      options));
+    PanelResult& panel = analysis.panels.back();
+    panel.erp_error = totals[p].error(averages);
+    if (p == 0 || options.output.samples) panel.instant_mean_square.resize(piece.count);
   }
-  if (piece.segments() > 1) analysis.velocity.amplitude.resize(0, v.cols());
-  if (sensors.empty()) return analysis;
-
-  const RowMatrix q = piece_samples(body, piece, "q");
-  const RowMatrix a = piece_samples(body, piece, "a");
-  for (const Sensor& sensor : sensors)
-    analysis.sensors.push_back(
-        observe(sensor, piece, q, v, a, analysis.bands, to_hz, options.references));
+  for_each_block(body, piece, "v", coordinates, [&](int64_t first, const RowMatrix& v) {
+    for (size_t p = 0; p < forms.size(); ++p)
+      if (Eigen::VectorXd& square = analysis.panels[p].instant_mean_square; square.size() > 0)
+        square.segment(first, v.rows()) = normal_velocity_integral(forms[p].W, v) / forms[p].area;
+  });
+  if (piece.segments() > 1) analysis.velocity.amplitude.resize(0, coordinates);
+  analysis.sensors = follow(body, piece, coordinates, sensors);
+  for (SensorResult& sensor : analysis.sensors)
+    observe(piece, analysis.bands, to_hz, options.references, sensor);
   return analysis;
 }
 

@@ -77,7 +77,14 @@ class HardN11Terminated(stages.PipelineTest):
         (self.folder / "step.run.h5.part").write_bytes(b"of a killed run")
         done = stages.run_stage("dynamics", "step.run.toml", "-o", "step.run.h5", "--resume", folder=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("step.run.h5: no checkpoint, which are written between cycles: the interrupted run starts again", done.stderr)
+        self.assertIn("step.run.h5: nothing to resume, there is no checkpoint (one is written after each cycle, without cycles every 60 s): "
+                      "the run starts at its beginning\n", done.stderr)
+
+    def test_an_interval_of_checkpoints_that_is_none_is_refused(self):
+        for seconds in ("-1", "nan"):
+            done = stages.run_stage("dynamics", "step.run.toml", "-o", "step.run.h5", f"--checkpoint-seconds={seconds}", folder=self.folder)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"error: --checkpoint-seconds: found {seconds}, expected 0 or more\n", done.stderr)
 
     def test_both_signals_before_the_first_step_end_it_with_the_same_code(self):
         # Before, the signal killed the program until its first step.

@@ -105,7 +105,8 @@ TEST_F(StopFriction, OracleABodyThatSticksAndSlipsHasThePeriodOfCoulombFriction)
 }
 
 /// 1 kg pressed with 10 N on the ground, friction 1 N, held by a spring that pulls with 0.5 N.
-std::string shoe(const std::string& law) {
+std::string shoe(const std::string& law,
+                 const std::string& spring = "stiffness_n_m = 1e4\nlength_mm = 999.95\n") {
   return R"(
 [time]
 end_s = 1.0
@@ -122,9 +123,8 @@ value = -10.0
 [[spring]]
 a = { body = "shoe", at_mm = [0, 0, 0] }
 b = { at_mm = [-1000, 0, 0] }
-stiffness_n_m = 1e4
-length_mm = 999.95
-[[stop]]
+)" + spring +
+         R"([[stop]]
 name = "ground"
 a = { body = "shoe", at_mm = [0, 0, 0] }
 b = { at_mm = [0, 0, 0] }
@@ -139,11 +139,23 @@ TEST_F(StopFriction, AShoeThatSticksRestsWhereItIsAndOneThatCreepsSaysSo) {
   const auto last = [&](const std::string& law) {
     return recorded(shoe(law)).read_doubles("history/shoe_x").back();
   };
-  const double sticks = last(""), creeps = last("slip_speed_m_s = 1e-3\n");
+  const double sticks = last("");
+  EXPECT_FALSE(result_.creep.has_value());
+  const double creeps = last("slip_speed_m_s = 1e-3\n");
   std::printf("after a second: sticks at %.3e m, crept to %.3e m\n", sticks, creeps);
   // The spring of the contact, 8e6 N/m, yields by 0.06 um; the load was not there before.
   EXPECT_NEAR(sticks, -0.5 / 8e6, 1e-8);
   EXPECT_LT(creeps, -4e-5);
+  // All but the way before the shoe was slow: 0.05 mm, the spring is slack then.
+  EXPECT_NEAR(result_.creep.value(), std::abs(creeps), 0.05 * std::abs(creeps));
+  for (const std::string& warning : result_.warnings)
+    EXPECT_EQ(warning.find("crept"), std::string::npos) << warning;
+  // One that pulls with as much over a longer way.
+  const H5File far =
+      recorded(shoe("slip_speed_m_s = 1e-3\n", "stiffness_n_m = 1e3\nlength_mm = 999.5\n"));
+  const double went = std::abs(far.read_doubles("history/shoe_x").back());
+  EXPECT_NEAR(result_.creep.value(), went, 0.05 * went);
+  EXPECT_GT(result_.creep.value(), kLongestCreep);
   ASSERT_FALSE(result_.warnings.empty());
   EXPECT_NE(result_.warnings.back().find("stop ground: it crept by"), std::string::npos)
       << result_.warnings.back();

@@ -82,6 +82,35 @@ class HardP2Killed(hard_pipeline.HardPipeline):
         expect_at_least(self, "runs that went on from a checkpoint", resumed + ("resum" in done.stderr), 1)
 
 
+    def test_a_run_without_cycles_that_is_killed_anywhere_is_resumed_to_the_same_bits(self):
+        scene, output = self.folder / "long.run.toml", self.folder / "again.run.h5"
+        text = (self.folder / "step.run.toml").read_text()
+        scene.write_text(text.replace("end_s = 0.06", "end_s = 6.0").replace("output_step_us = 50.0", "output_step_us = 700.0"))
+        done = stages.run_stage("dynamics", scene.name, "-o", "whole.run.h5", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        command = [stages.BIN / "clatter-dynamics", scene.name, "-o", output.name, "--resume", "--checkpoint-seconds", "0"]
+        draw, said, checkpoint = random.Random(16), [], self.folder / "again.run.h5.checkpoint"
+        for _ in range(6):
+            before = checkpoint.stat().st_ino if checkpoint.exists() else None
+            process = subprocess.Popen(command, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            while process.poll() is None and (checkpoint.stat().st_ino if checkpoint.exists() else None) == before:
+                time.sleep(0.002)
+            time.sleep(draw.uniform(0.0, 0.05))
+            process.kill()
+            said += process.communicate()[1].splitlines()
+            if output.exists():
+                break
+        done = stages.run_stage("dynamics", scene.name, "-o", output.name, "--resume", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        equal = self.assert_same_numbers(output, self.folder / "whole.run.h5")
+        began = [float(line.split()[2]) for line in said + done.stderr.splitlines() if line.startswith("resuming at ")]
+        self.assertEqual(sum("nothing to resume" in line for line in said), 1)
+        self.assertEqual(began, sorted(began))
+        self.assertFalse(checkpoint.exists())
+        observed(f"went on at {', '.join(f'{at:.3g}' for at in began)} s; {equal} datasets equal to the bit")
+        expect_at_least(self, "runs that went on from a checkpoint", len(began), 1)
+
+
 class HardP3TwoWriters(hard_pipeline.HardPipeline):
     def test_two_makes_in_one_folder_leave_right_results(self):
         for name in hard_pipeline.ARTEFACTS:

@@ -8,6 +8,7 @@
 
 #include "core/base/artefact.hpp"
 #include "recover/spectrum/analysis.hpp"
+#include "recover/spectrum/piece_samples.hpp"
 #include "synthetic.hpp"
 #include "tests/refusal.hpp"
 
@@ -67,6 +68,28 @@ TEST_F(Averages, OneSegmentIsTheUndividedWindowToTheBit) {
   EXPECT_EQ(a.velocity.amplitude, b.velocity.amplitude);
   EXPECT_EQ(a.sensors[0].acceleration_lines, b.sensors[0].acceleration_lines);
   EXPECT_EQ(equivalent_averages(a.piece), 1.0);
+}
+
+TEST_F(Averages, BlocksOfAPieceAreItsSamplesToTheBit) {
+  const RunBody body(write_run(folder_, model_, {.cycles = 4}, noise()), "");
+  for (const Domain domain : {Domain::kTime, Domain::kAngle}) {
+    WindowRule rule{.name = "w", .span = {-300.0, 701.0}};
+    rule.domain = domain;
+    const Piece piece = window(body.clock(), rule, "run");
+    const RowMatrix all = piece_samples(body, piece, "a");
+    int64_t next = 0, blocks = 0;
+    for_each_block(body, piece, "a", 1 << 20, [&](int64_t first, const RowMatrix& rows) {
+      EXPECT_EQ(first, next);
+      EXPECT_LE(rows.rows(), 64);
+      EXPECT_EQ(rows, all.middleRows(first, rows.rows()));
+      next += rows.rows();
+      ++blocks;
+    });
+    EXPECT_EQ(next, piece.count);
+    EXPECT_GT(blocks, 10);
+  }
+  EXPECT_EQ(block_rows(1000), 2096);  // 16.8 MB of 8 bytes
+  EXPECT_EQ(block_rows(0) % 4, 0);
 }
 
 TEST_F(Averages, PowersAreTheMeanOfTheSegmentsAnalysedOneByOne) {

@@ -89,20 +89,32 @@ class Levels(unittest.TestCase):
 
     def test_a_window_has_the_level_of_its_mean_and_the_standard_error(self):
         with h5py.File(self.folder / "1200.field.h5", "a") as field:
-            field.copy(AT, "analysis/mean")
-            mean = field["analysis/mean"]
-            mean["sound"].attrs.update({"power_dba": 66.1, "power_standard_error_dba": 0.27})
-            lines = mean["sensors/sensor_liner/spectrum"]
-            lines["acceleration_power"] = (lines["acceleration_re"][()] ** 2 + lines["acceleration_im"][()] ** 2) / 2.0
-            del lines["acceleration_re"], lines["acceleration_im"]
+            synthetic.add_mean(field)
         what = ("--sound", "--sensor", "sensor_liner.y", "-o", "l.png")
-        cycle, said = (self.run_command("levels", "1200.field.h5", *what, *window) for window in ((), ("--window", "mean")))
-        self.assertIn("    1200     70.0     66.1 +- 0.27\n", said)
+        cycle, said = (self.run_command("levels", "1200.field.h5", *what, "--window", window) for window in ("cycle", "mean"))
+        self.assertEqual(self.run_command("levels", "1200.field.h5", *what), said)
+        self.assertIn("    1200     71.0     66.0 +- 0.27\n", said)
         self.assertNotIn("+-", cycle)
         self.assertEqual(said.splitlines()[-2], cycle.splitlines()[-2])  # of the sensor, by its mean squares
         self.assertEqual(self.run_command("levels", "1200.field.h5", "--sound", "--window", "men", code=2),
                          "1200.field.h5: analysis: found cycle, ftdc, mean, expected men")
         self.run_command("orders", "1200.field.h5", "--sound", "--window", "mean", "-o", "o.png")
+
+    def test_a_sweep_file_has_the_means_and_their_standard_errors(self):
+        with h5py.File(self.folder / "1200.field.h5", "a") as field:
+            synthetic.add_mean(field, cycles=5, error=0.31)
+        for path in self.folder.glob("*.run.h5"):
+            with synthetic.new_file(path, "run"):
+                pass
+        self.run_command("collect", ".")
+        with h5py.File(self.folder / "sweep.h5") as sweep:
+            np.testing.assert_array_equal(sweep["cycles"], [5, 1, 1])
+            np.testing.assert_array_equal(sweep["sound/power/level_dba"], [66.0, 64.0, 63.0])
+            np.testing.assert_array_equal(sweep["sound/power/standard_error_dba"], [0.31, np.nan, np.nan])
+        what = ("--sound", "--panel", "exposed", "-o", "l.png")
+        said = self.run_command("levels", "sweep.h5", *what)
+        self.assertIn("    1200     71.0     66.0 +- 0.31\n", said)
+        self.assertEqual(said, self.run_command("levels", *(f"{rpm:.0f}.field.h5" for rpm, _, _ in LINES), *what))
 
     def test_what_cannot_be_drawn_is_refused(self):
         for arguments, message in (

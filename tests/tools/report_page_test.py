@@ -84,6 +84,18 @@ class Page(Folder):
         self.assertEqual((one["effects"][1][0], one["proofs"][1]), ("<friction>", ["sound power 0.5", "the study's"]))
         self.assertNotIn("<friction>", text)
 
+    def test_levels_of_several_cycles_are_means_with_their_standard_error(self):
+        synthetic_page.write_folder(self.folder)
+        with h5py.File(self.folder / "dry.field.h5", "r+") as field:
+            synthetic.add_mean(field, cycles=6, error=0.4)
+            sound = field["analysis/mean/sound"].attrs["power_dba"]
+        data, _, _ = self.page()
+        label = {one["stem"]: number for number, one in enumerate(data["runs"])}
+        means = {one["run"]: one["mean"] for one in data["sound"]}
+        self.assertEqual({key: means[label["dry"]][key] for key in ("dba", "error", "cycles")}, {"dba": sound, "error": 0.4, "cycles": 6})
+        self.assertIsNone(means[label["wet"]])
+        self.assertTrue(any(f"{sound:.1f} ± 0.40" in cell for table in data["summary"]["tables"] for row in table["rows"] for cell in row))
+
     def test_what_it_says_is_what_the_files_say(self):
         synthetic_page.write_folder(self.folder)
         data, blocks, _ = self.page()

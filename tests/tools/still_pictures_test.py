@@ -70,6 +70,23 @@ class FieldPictures(unittest.TestCase):
             with artefact.open_artefact(self.path, "field") as field:
                 self.assertTrue(findings.loudness("slap", field)[1].endswith(end), from_hz)
 
+    def test_findings_are_means_over_cycles_with_their_standard_error(self):
+        add_sound(self.path)
+        with h5py.File(self.path, "r+") as file:
+            one = file["analysis/cycle/sound"].attrs["power_dba"]
+            file["analysis/cycle/sound"].attrs["power_db"] = one + 2.0
+            synthetic.add_mean(file, cycles=8, error=0.26, more_db=1.5)
+        with self.open() as field:
+            level, sentence = findings.loudness("slap", field)
+            self.assertAlmostEqual(level, one + 1.5)
+            self.assertIn(f"slap: {one + 1.5:.1f} ± 0.26 dB(A) of sound power re 1 pW (mean of 8 cycles); ", sentence)
+            estimate = field["analysis/mean/panels/exposed"].attrs["erp_dba"]
+            self.assertEqual(findings.field_row(field)[-2:], [f"{one + 1.5:.1f} ± 0.26", f"{estimate:.1f} ± 0.26"])
+        with h5py.File(self.path, "r+") as file:  # segments that are not cycles are no mean over cycles
+            file["analysis/mean"].attrs["periodic"] = "no"
+        with self.open() as field:
+            self.assertAlmostEqual(findings.loudness("slap", field)[0], one)
+
     def test_findings_are_by_sound_power_where_the_file_has_it(self):
         with self.open() as field:
             level, sentence = findings.loudness("slap", field)

@@ -137,6 +137,28 @@ class Values(unittest.TestCase):
         self.assertEqual((one.minus(other).size(), one.minus(other).number()), (2.0, -2.0))
         np.testing.assert_array_equal(one.plus(other).values, [3.5, 8.0])
 
+    def test_means_have_standard_errors_and_an_effect_within_them_is_not_decided(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.field.h5"
+            synthetic.write_field(path)
+            with h5py.File(path, "r+") as file:
+                once = float(file["analysis/cycle/panels/skin"].attrs["erp_dba"])
+                synthetic.add_mean(file, error=0.3, more_db=1.0)
+            one = quantities.extract(path, "erp_dba", {"panel": "skin"})
+        self.assertAlmostEqual(one.number(), once + 1.0)
+        self.assertEqual(one.text(4), f"{once + 1.0:.4g} ± 0.30")
+        change = quantities.mean(once + 1.5, 0.4).minus(one)
+        self.assertAlmostEqual(change.error, 0.5)  # 0.3 and 0.4, independent
+        self.assertAlmostEqual(change.times(-2.0).error, 1.0)
+        own = quantities.Quantity("power", "a.field.h5", "erp_dba", {}, "dB(A)", False, 0.1)
+        found = effects.Effects(types.SimpleNamespace(quantities=[own]), [one], [])
+        self.assertEqual(effects.change_text(found, 0, change), "+0.5 ± 0.5 dB(A)")
+        advice = lambda value, error: effects.advice(found, effects.Switch("x", "off", {}, [quantities.mean(value, error)], 0.5))  # noqa: E731
+        self.assertEqual(advice(0.5, 0.5), "keep (within twice the standard error: more cycles decide)")
+        self.assertEqual(advice(1.5, 0.5), "keep")
+        self.assertEqual(advice(0.02, 0.03), "leave out")
+        self.assertEqual(advice(0.5, np.nan), "keep")
+
     def test_a_frequency_above_what_the_certificate_covers_is_said(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "a.rom.h5"

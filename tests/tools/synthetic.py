@@ -159,6 +159,21 @@ def write_piece(file, at, time, amplitude, ring_hz):
         file[where].attrs["erp_db"] = levels.max() - 76
 
 
+def add_mean(file, cycles=8, error=0.27, more_db=1.0):
+    """A window "mean" over cycles, of which the cycle in the file is one: no phases, levels that are `more_db` higher, and their standard error."""
+    file.copy("analysis/cycle", "analysis/mean")
+    mean = file["analysis/mean"]
+    mean.attrs.update({"periodic": "yes", "averages": cycles})
+    for sensor in mean["sensors"].values():
+        if "spectrum" in sensor:
+            lines = sensor["spectrum"]
+            lines["acceleration_power"] = (lines["acceleration_re"][()] ** 2 + lines["acceleration_im"][()] ** 2) / 2.0
+            del lines["acceleration_re"], lines["acceleration_im"]
+    for level, group in [("erp", panel) for panel in mean["panels"].values()] + ([("power", mean["sound"])] if "sound" in mean else []):
+        for unit in ("db", "dba"):
+            group.attrs.update({f"{level}_{unit}": group.attrs[f"{level}_{unit}"] + more_db, f"{level}_standard_error_{unit}": error})
+
+
 def write_skin(file, nodes, faces):
     centre = nodes[faces[:, :3]].mean(axis=1)
     outward = (nodes - nodes.mean(axis=0)) / np.linalg.norm(nodes - nodes.mean(axis=0), axis=1)[:, None]

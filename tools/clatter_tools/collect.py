@@ -6,13 +6,12 @@ import tomllib
 import h5py
 import numpy as np
 
-from clatter import artefact, chains
+from clatter import artefact, chains, fields
 from clatter.artefact import BadArtefact, schema_of, text
 from . import orders, slap_rows, sweep_list
 from .export.patient_file import PatientFile
 from .whole_file import whole_file
 
-AT = "analysis/cycle"
 UNFINISHED = ("failed", "interrupted", "refused")
 
 
@@ -69,22 +68,29 @@ def of_histories(path):
 
 
 def of_field(path):
-    """({sensors/label, panels/name or sound/power: spectrum}, {panels/name, sound/power: dB and dB(A)}, cost) of a field file."""
+    """({sensors/label, panels/name or sound/power: spectrum}, {panels/name, sound/power: levels_of()}, cycles, cost) of a field file: over its cycle,
+    or the mean over several."""
     with artefact.open_artefact(path, "field") as field:
-        if AT not in field:
-            return {}, {}, artefact.totals(field)
+        cycles = fields.mean_of_cycles(field)[1]
+        at = orders.piece(field, None)
+        if at not in field:
+            return {}, {}, np.nan, artefact.totals(field)
         found, levels = {}, {}
-        for sensor in field[f"{AT}/sensors"] if f"{AT}/sensors" in field else []:
-            for label in field[f"{AT}/sensors/{sensor}/labels"][()]:
+        for sensor in fields.sensor_names(field, at):
+            for label in field[f"{at}/sensors/{sensor}/labels"][()]:
                 found[f"sensors/{text(label)}"] = orders.of_field(field, text(label))
-        for panel in field[f"{AT}/panels"]:
+        for panel in field[f"{at}/panels"]:
             found[f"panels/{panel}"] = orders.of_panel(field, panel)
-            attributes = field[f"{AT}/panels/{panel}"].attrs
-            levels[f"panels/{panel}"] = (attributes["erp_db"], attributes["erp_dba"])
-        if f"{AT}/sound" in field:
+            levels[f"panels/{panel}"] = levels_of(field[f"{at}/panels/{panel}"], "erp")
+        if f"{at}/sound" in field:
             found["sound/power"] = orders.of_sound(field)
-            levels["sound/power"] = tuple(field[f"{AT}/sound"].attrs[f"power_{unit}"] for unit in ("db", "dba"))
-        return found, levels, artefact.totals(field)
+            levels["sound/power"] = levels_of(field[f"{at}/sound"], "power")
+        return found, levels, cycles, artefact.totals(field)
+
+
+def levels_of(group, name):
+    """(dB, dB(A), standard errors of both, nan of one cycle)."""
+    return *(group.attrs[f"{name}_{unit}"] for unit in ("db", "dba")), *(fields.standard_error(group, name, unit) for unit in ("db", "dba"))
 
 
 class Sweep:
@@ -96,13 +102,14 @@ class Sweep:
         self.spectra = [{} for _ in self.scenes]
         self.levels = [{} for _ in self.scenes]
         self.slaps = [{} for _ in self.scenes]
+        self.cycles = np.full(len(self.scenes), np.nan)  # of which levels are means
         self.cost = np.full((len(self.scenes), 2, 2), np.nan)  # of run and field: seconds, peak GiB
         for row, (name, *_) in enumerate(self.scenes):
             run, field = (folder / f"{name}.{kind}.h5" for kind in ("run", "field"))
             if self.states[row] == "complete":
                 self.spectra[row], self.cost[row, 0] = of_histories(run)
             if field.exists() and self.states[row] == "complete":
-                found, self.levels[row], self.cost[row, 1] = of_field(field)
+                found, self.levels[row], self.cycles[row], self.cost[row, 1] = of_field(field)
                 self.spectra[row].update(found)
                 with artefact.open_artefact(field, "field") as file:
                     self.slaps[row] = slap_rows.of_field(file)
@@ -146,6 +153,7 @@ def fill(sweep, file):
     put("title", [title.encode() for _, title, _ in sweep.scenes], "1", "titles of the scenes")
     put("state", sweep.states, "1", "complete, failed, interrupted, refused or missing")
     put("speed_rpm", sweep.speeds(), "1/min", "mean speed of the crank")
+    put("cycles", sweep.cycles, "1", "cycles of which levels and spectra are means")
     put("cost", sweep.cost.reshape(len(sweep.scenes), 4), "s, GiB, s, GiB", "seconds and peak memory of run and field")
     for key in sorted({key for *_, keys in sweep.scenes for key in keys}):
         values = [keys.get(key, np.nan) for *_, keys in sweep.scenes]
@@ -158,10 +166,12 @@ def fill(sweep, file):
         width = max(width, values.shape[1])
         put(f"{name}/rms", values, unit, "RMS by run and half order of the crank; of panels the root of the ERP, of sound that of its power")
     for name in sorted({name for one in sweep.levels for name in one}):
-        pairs = np.array([one.get(name, (np.nan, np.nan)) for one in sweep.levels])
+        rows = np.array([one.get(name, (np.nan,) * 4) for one in sweep.levels])
         what = "sound power" if name == "sound/power" else "equivalent radiated power"
-        put(f"{name}/level_db", pairs[:, 0], "dB re 1 pW", f"{what} of the cycle")
-        put(f"{name}/level_dba", pairs[:, 1], "dB(A) re 1 pW", "the same, A-weighted")
+        put(f"{name}/level_db", rows[:, 0], "dB re 1 pW", f"{what} of the cycle, or of the mean over `cycles`")
+        put(f"{name}/level_dba", rows[:, 1], "dB(A) re 1 pW", "the same, A-weighted")
+        for column, unit in ((2, "db"), (3, "dba")):
+            put(f"{name}/standard_error_{unit}", rows[:, column], "dB", f"standard error of level_{unit}, nan of one cycle")
     slap_rows.fill(sweep.slaps, put)
     put("order", 0.5 * np.arange(width), "1", "half orders, columns of rms")
 

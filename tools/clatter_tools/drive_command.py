@@ -26,7 +26,7 @@ def add_arguments(commands):
     what.add_argument("--sensor", metavar="LABEL", help="of field files: a channel's acceleration, as sensor_arm.x")
     what.add_argument("--panel", metavar="NAME", help="of field files: a panel's equivalent radiated power, as exposed")
     what.add_argument("--sound", action="store_true", help="of field files: the sound power")
-    one.add_argument("--window", metavar="NAME", help="of field files: a window instead of the cycle, as a mean over several")
+    one.add_argument("--window", metavar="NAME", help="of field files: a window; default: the mean over cycles where there is one, else the cycle")
     one.add_argument("--where", action="append", default=[], metavar="KEY=VALUE", help="of the runs of a sweep those with this value of a key")
     one.add_argument("--orders", default=",".join(f"{order:g}" for order in ORDERS), metavar="LIST",
                      help="orders of the cuts, multiples of 0.5; default %(default)s")

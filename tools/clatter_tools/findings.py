@@ -78,14 +78,15 @@ def field_row(field):
         row[4] = f"{slap.high_rms(field, sensors['liner'], at):.3g}"
     if sensors["block"]:
         row[3] = f"{slap.peak(*slap.band_limited(field, sensors['block'], at))[1]:.3g}"
-    sound = fields.sound_power(field, at)
-    return [*row, f"{sound.dba:.1f}" if sound else NOTHING, f"{fields.radiated_estimate(field, at).dba:.1f}"]
+    mean = fields.level_piece(field)
+    sound = fields.sound_power(field, mean)
+    return [*row, sound.level() if sound else NOTHING, fields.radiated_estimate(field, mean).level()]
 
 
 def loudness(label, field):
-    """(level [dB(A)], sentence) of what a field radiates over its cycle, or its first piece: by its sound power, or else its ERP."""
-    pieces = fields.pieces(field)
-    at = f"analysis/{'cycle' if 'cycle' in pieces else pieces[0]}"
+    """(level [dB(A)], sentence) of what a field radiates over its cycle, the mean of its cycles, or its first piece: by its sound power, or else its
+    ERP."""
+    at = fields.level_piece(field)
     power = fields.radiated(field, at)
     frequency = artefact.dataset(field, f"{at}/frequency_hz")
     # In the band of the levels; the file has all lines.
@@ -93,7 +94,13 @@ def loudness(label, field):
     bands = artefact.dataset(field, power.bands)
     band = artefact.text(artefact.dataset(field, f"{at}/third_octave/nominal")[int(np.argmax(bands))])
     lines = f", lines at {', '.join(f'{hz:.0f}' for hz in peaks)} Hz" if len(peaks) else ""
-    return power.dba, f"{label}: {power.dba:.1f} dB(A) of {power.name} re 1 pW; loudest are the third octave of {band} Hz{lines}"
+    return power.dba, f"{label}: {power.level()} dB(A) of {power.name} re 1 pW{cycles_text(field)}; loudest are the third octave of {band} Hz{lines}"
+
+
+def cycles_text(field):
+    """" (mean of 8 cycles)"; empty where a field has no such mean."""
+    name, cycles = fields.mean_of_cycles(field)
+    return f" (mean of {cycles} cycles)" if name else ""
 
 
 def mesh_quality(file):

@@ -39,7 +39,7 @@ def add_arguments(command):
     command.add_argument("--sound", action="store_true", help="the sound power")
     command.add_argument("--panel", action="append", default=[], metavar="NAME", help="a panel's equivalent radiated power, as exposed")
     command.add_argument("--sensor", action="append", default=[], metavar="LABEL", help="a channel's acceleration, as sensor_arm.x")
-    command.add_argument("--window", metavar="NAME", help="a window of the fields instead of the cycle, as a mean over several")
+    command.add_argument("--window", metavar="NAME", help="a window of the fields; default: the mean over cycles where there is one, else the cycle")
     command.add_argument("--where", action="append", default=[], metavar="KEY=VALUE", help="of the runs of a sweep those with this value of a key")
     command.add_argument("-o", "--output", default="levels.svg", metavar="picture", help="SVG or PNG; default %(default)s")
 
@@ -66,13 +66,15 @@ def of_field(field, name, window):
 
 
 def of_sweep(sweep, name, where):
-    """[(speed, (dB, dB(A), nan))] of a sweep file."""
+    """[(speed, (dB, dB(A), standard error))] of a sweep file."""
     spectra = orders.of_sweep(sweep, name, where)
     if name.startswith("sensors/"):
         return [(spectrum[0], of_acceleration(spectrum)) for spectrum in spectra]
     selected = orders.rows_where(sweep, where)
-    speeds, *levels = (sweep[key][()][selected] for key in ("speed_rpm", f"{name}/level_db", f"{name}/level_dba"))
-    return [(float(speed), (float(plain), float(weighted), np.nan)) for speed, plain, weighted in zip(speeds, *levels) if np.isfinite(plain)]
+    error = f"{name}/standard_error_dba"
+    columns = [sweep[key][()][selected] for key in ("speed_rpm", f"{name}/level_db", f"{name}/level_dba")]
+    columns.append(sweep[error][()][selected] if error in sweep else np.full(len(columns[0]), np.nan))  # of an older file
+    return [(float(speed), tuple(map(float, levels))) for speed, *levels in zip(*columns) if np.isfinite(levels[0])]
 
 
 def read(path, names, where, window):

@@ -2,6 +2,7 @@
 """Order analysis: amplitudes of a signal over the crank angle, in bands half an engine order wide."""
 import numpy as np
 
+from clatter import fields
 from clatter.artefact import BadArtefact, dataset, text
 from clatter.chains import CYCLE_DEG, complete_cycles, crank_angle
 from clatter.fields import labelled
@@ -63,11 +64,11 @@ def in_half_orders(order, power):
 
 
 def piece(field, window):
-    """Path of a window in a field file, of the cycle without one."""
+    """Path of a window in a field file; without one of the mean over cycles where the file has it, else of the cycle."""
     found = list(field.get("analysis", {}))
     if window is not None and window not in found:
         raise BadArtefact(f"{field.filename}: analysis: found {', '.join(found) or 'none'}, expected {window}")
-    return f"analysis/{window or 'cycle'}"
+    return f"analysis/{window or fields.mean_of_cycles(field)[0] or 'cycle'}"
 
 
 def refuse_window(sweep, window):

@@ -19,7 +19,7 @@ constexpr double kFriction = 0.08, kMass = 2.4e-3, kGravity = 9.81;
 /// A link that lies on a guide inclined by `slope` [rad], left alone: how far it is down the guide
 /// and how fast after `seconds`.
 struct Slid {
-  double way = 0.0, speed = 0.0;
+  double way = 0.0, speed = 0.0, crept = 0.0;
 };
 
 Slid slide(double slope, double slip_speed, double seconds) {
@@ -61,7 +61,7 @@ Slid slide(double slope, double slip_speed, double seconds) {
   while (method->state().time < seconds) method->step(seconds);
   const StageState& state = method->state();
   return {Vector2d(state.y(0), state.y(1)).dot(along),
-          Vector2d(state.v_y(0), state.v_y(1)).dot(along)};
+          Vector2d(state.v_y(0), state.v_y(1)).dot(along), system.element(0).crept().value()};
 }
 
 TEST(HardTD11_Friction, ALinkThatSticksCreepsInProportionToTheRegularisationSpeed) {
@@ -72,6 +72,7 @@ TEST(HardTD11_Friction, ALinkThatSticksCreepsInProportionToTheRegularisationSpee
     test::expect_at_most("error of the creep, of the speed of regularisation",
                          std::abs(found.speed / slip_speed - x), 1e-4);
     EXPECT_LT(found.way, x * slip_speed * 0.3) << slip_speed;
+    EXPECT_NEAR(found.crept, found.way, 0.01 * found.way) << slip_speed;
   }
 }
 
@@ -82,7 +83,12 @@ TEST(HardTD11_Friction, ALinkThatSlidesTendsToCoulombsFriction) {
   // Below the regularisation speed the acceleration is larger: for a time in proportion to it.
   double before = 0.0;
   for (const double slip_speed : {0.04, 0.02, 0.01}) {
-    const double error = slide(slope, slip_speed, seconds).way - way;
+    const Slid found = slide(slope, slip_speed, seconds);
+    const double error = found.way - way;
+    // What slides crept until it had the speed of regularisation, which took less than Coulomb's
+    // friction would have.
+    EXPECT_LT(found.crept, 0.5 * slip_speed * slip_speed / acceleration) << slip_speed;
+    EXPECT_GT(found.crept, 0.1 * slip_speed * slip_speed / acceleration) << slip_speed;
     EXPECT_GT(error, 0.0) << slip_speed;
     if (before > 0.0) {
       EXPECT_NEAR(before / error, 2.0, 0.15) << slip_speed;

@@ -102,6 +102,23 @@ TEST(LinkJoints, WorkOnTheLinksIsWhatIsStoredAndLost) {
   EXPECT_NEAR(work, -storing - lost, 1e-6 * (std::abs(work) + lost));
 }
 
+TEST(LinkJoints, SayHowFarPinsThatArePressedCreep) {
+  JointLaw law;
+  law.friction = 0.1;
+  LinkJoints chain = joints(6, law);
+  const VectorXd y = 1.001 * ring(6, 8e-3);  // pulled apart
+  VectorXd v = VectorXd::Zero(18);
+  v(5) = 2.0;  // one link turns, 3.3 mm/s in both of its joints
+  Response response;
+  chain.begin_step(0.5);
+  chain.evaluate({0.5001, 1e-4, 1, {}}, y, v, false, response);
+  chain.finish_stage({0.5001, 1e-4, 1, {}});
+  chain.accept_step(0.5001);
+  EXPECT_NEAR(chain.crept().value(), 1e-4 * 2.0 * law.radius, 1e-15);
+  law.friction = 0.0;
+  EXPECT_FALSE(joints(6, law).crept().has_value());
+}
+
 // Joints of a scene that says nothing of damping have none, whatever the law's own default is.
 TEST(LinkJoints, OfASceneHaveOnlyTheDampingThatItGives) {
   const keys::Table& joint = *chain_table().find("joint")->table;

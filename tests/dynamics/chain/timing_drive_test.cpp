@@ -14,6 +14,7 @@
 #include "dynamics/run/start_state.hpp"
 #include "tests/dynamics/chain/running_drive.hpp"
 #include "tests/dynamics/chain/small_motion.hpp"
+#include "tests/dynamics/resumed_within.hpp"
 #include "tests/dynamics/slap_scene.hpp"
 #include "tests/refusal.hpp"
 
@@ -294,6 +295,36 @@ TEST_F(TimingDriveScene, ACycleLaterALinkIsWhereThatFortyPitchesAheadWas) {
     EXPECT_EQ(before(link(100)), link(10));
     EXPECT_EQ(before(0), 0);  // a cam
   }
+}
+
+TEST_F(TimingDriveScene, GoesOnFromACheckpointToTheSameBits) {
+  TimingDrive drive;
+  drive.rpm = 3400.0;
+  drive.friction = 0.1;
+  drive.end_s = 3e-3;
+  drive.chain_keys = "shape_every_us = 100.0";
+  const Checkpoint from = testing::expect_same_bits_when_resumed(scene(drive), folder_);
+  EXPECT_GT(from.state.time, 0.0);
+  recorded(drive);
+  EXPECT_GT(result_.creep.value(), 1e-6);
+  EXPECT_LT(result_.creep.value(), kLongestCreep);
+  EXPECT_TRUE(result_.warnings.empty());
+  drive.friction = 0.0;
+  drive.end_s = 1e-4;
+  recorded(drive);
+  EXPECT_FALSE(result_.creep.has_value());
+}
+
+TEST_F(TimingDriveScene, RunsTwiceToTheSameBits) {
+  TimingDrive drive;
+  drive.rpm = 3400.0;
+  drive.friction = 0.1;
+  drive.end_s = 2e-3;
+  const Scene read = scene(drive);
+  const H5File one = testing::complete_file(read, folder_ / "once.run.h5", result_);
+  const H5File again = testing::complete_file(read, folder_ / "again.run.h5", result_);
+  for (const char* group : {"history", "energy", "output"})
+    EXPECT_GT(testing::expect_same_bits(one, again, group), 0);
 }
 
 TEST_F(TimingDriveScene, CyclesAreThoseOfADriveThatTurns) {

@@ -89,8 +89,8 @@ async function speedsSection() {
 function powerOverSpeed() {
   const panelOf = run => run.panels.find(one => one.name === "exposed") ?? run.panels.find(one => one.name === "skin");
   const lines = [
-    ...levelsOverSpeed("sound power", 0, page.sound ?? [], run => run),
-    ...levelsOverSpeed("ERP", 1, page.radiation?.runs ?? [], run => panelOf(run)?.measures.erp),
+    ...levelsOverSpeed("sound power", 0, page.sound ?? [], run => run, run => run.mean),
+    ...levelsOverSpeed("ERP", 1, page.radiation?.runs ?? [], run => panelOf(run)?.measures.erp, run => panelOf(run)?.mean),
   ];
   if (!lines.length) return null;
   return new Plot({
@@ -102,10 +102,10 @@ function powerOverSpeed() {
 }
 
 /** Lines of dB(A) and, dashed, dB over the speeds of runs, where there are at least two. */
-function levelsOverSpeed(name, number, runs, levelsOf) {
+function levelsOverSpeed(name, number, runs, levelsOf, meanOf) {
   const points = new Map();
   for (const run of runs) {
-    const levels = levelsOf(run);
+    const levels = meanOf(run) ?? levelsOf(run);
     if (levels && run.rpm && !points.has(Math.round(run.rpm))) points.set(Math.round(run.rpm), levels);
   }
   if (points.size < 2) return [];

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Radiated power: panels with their spectra, third octaves and share."""
+import numpy as np
+
 from clatter import fields
 from clatter.artefact import dataset, text
 from ..plots.octaves import short
@@ -30,6 +32,7 @@ def read(one, pack):
         panel = field[f"{at}/panels/{name}"]
         panels.append({"name": name, "label": name.replace("_", " "),
                        "area_m2": panel.attrs.get("area_m2"), "share": panel.attrs.get("share_of_skin"),
+                       "mean": mean_of_cycles(field, f"panels/{name}", "erp"),
                        "instants": instants(pack, panel, every),
                        "measures": {row["key"]: measure(pack, panel, row) for row in MEASURES if row["lines"] in panel}})
     return {"run": one.number, "piece": at.rpartition("/")[2], "panels": panels, "frequency": curve("frequency_hz"),
@@ -58,3 +61,15 @@ def measure(pack, panel, row):
         if row[key] in panel:
             found[key] = pack.add("curves", panel[row[key]][()])
     return {**found, "dba": panel.attrs.get(row["total"]), "db": panel.attrs.get(row["total_db"])}
+
+
+def mean_of_cycles(field, of, level):
+    """The level of a panel or the sound as a mean over cycles, where the field has one: {db, dba, error of dba, cycles}."""
+    name, cycles = fields.mean_of_cycles(field)
+    if name is None or f"analysis/{name}/{of}" not in field:
+        return None
+    group = field[f"analysis/{name}/{of}"]
+    error = fields.standard_error(group, level)
+    if np.isnan(error):  # of a power of 0
+        return None
+    return {"db": float(group.attrs[f"{level}_db"]), "dba": float(group.attrs[f"{level}_dba"]), "error": error, "cycles": cycles}

@@ -3,6 +3,7 @@
 from clatter import fields
 from clatter.artefact import dataset, text
 from ..plots.octaves import short
+from .radiation import mean_of_cycles
 
 
 def collect(folder, pack):
@@ -23,6 +24,7 @@ def read(one, pack):
             "bands": {"lower": curve(field[f"{at}/third_octave/lower_hz"]), "upper": curve(field[f"{at}/third_octave/upper_hz"]),
                       "names": [short(text(name)) for name in dataset(field, f"{at}/third_octave/nominal")]},
             "db": float(sound.attrs["power_db"]), "dba": float(sound.attrs["power_dba"]), "power": curve(sound["power"]),
+            "mean": mean_of_cycles(field, "sound", "power"),
             "power_bands": curve(sound["third_octave/power_db"]), "power_bands_dba": curve(sound["third_octave/power_dba"]),
             "erp": curve(panel["erp"]), "erp_bands": curve(panel["third_octave/erp_db"]), "erp_bands_dba": curve(panel["third_octave/erp_dba"]),
             "duration": float(len(time) * (time[1] - time[0])) if at.endswith("/cycle") else None,

@@ -21,7 +21,7 @@ def collect(folder, cards):
 
 def loudest(one):
     """Of a run: its loudest third octave and line, and the panel from which most comes, with its share where the sound is known."""
-    at = fields.piece(one.field, "cycle", *fields.pieces(one.field))
+    at = fields.level_piece(one.field)
     power = fields.radiated(one.field, at)
     band = artefact.text(artefact.dataset(one.field, f"{at}/third_octave/nominal")[int(np.argmax(artefact.dataset(one.field, power.bands)))])
     frequency = artefact.dataset(one.field, f"{at}/frequency_hz")
@@ -61,7 +61,7 @@ def sound(folder):
     found = [f"{'Loudest: ' if len(levels) > 1 else ''}{text}."]
     if len(levels) > 1:
         found.append(f"Quietest: {levels[0][2].label}: {levels[0][0]:.1f} dB(A), {level - levels[0][0]:.1f} dB below it.")
-    at = fields.piece(loudest.field, "cycle", *fields.pieces(loudest.field))
+    at = fields.level_piece(loudest.field)
     others = sorted(((float(panel.attrs["erp_dba"]), name) for name, panel in loudest.field[f"{at}/panels"].items()
                      if name not in ("skin", "exposed") and "erp_dba" in panel.attrs), reverse=True)
     if others:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a run of make has made: stage, file, seconds, memory, and the figure by which the file is judged."""
-from clatter import artefact
+from clatter import artefact, fields
 from clatter.errors import BadArtefact
 from .. import findings
 from ..report import print_table
@@ -38,7 +38,7 @@ def row(folder, path):
 
 def judged(kind, file):
     if kind == "field":
-        return f"{findings.loudness('', file)[0]:.1f} dB(A)"
+        return f"{fields.radiated(file, fields.level_piece(file)).level()} dB(A)"
     name, words = JUDGED.get(kind, ("", ""))
     numbers = artefact.certificate(file)
     if name not in numbers:

@@ -23,6 +23,7 @@ from clatter.artefact import text
 from . import effect_keys, plan, results, run, toml_text
 from .findings import digits
 
+CLEAR = 2.0  # standard errors: a smaller change of a mean may be none
 SAVES = 0.1  # of the seconds: less is no reason to leave an effect out, and within what seconds vary by
 
 
@@ -150,10 +151,12 @@ def saved(wanted, before, after, names):
 
 
 def change_text(effects, quantity, change):
-    """"+0.02 dB(A)", "-3.1 %"; of a curve the largest change."""
+    """"+0.02 dB(A)", "-3.1 %", of means "+0.4 ± 0.3 dB(A)"; of a curve the largest change."""
     own = effects.plan.quantities[quantity]
-    value = effects.scaled(quantity, change.number())
-    return f"{digits(100.0 * value, '+')} %" if own.relative else f"{digits(value, '+')} {own.unit}".rstrip()
+    value, error = (effects.scaled(quantity, one) for one in (change.number(), change.error))
+    factor, unit = (100.0, "%") if own.relative else (1.0, own.unit)
+    spread = f" ± {digits(factor * error)}" if error > 0.0 else ""
+    return f"{digits(factor * value, '+')}{spread} {unit}".rstrip()
 
 
 def advice(effects, one):
@@ -161,9 +164,13 @@ def advice(effects, one):
     missing = [own.name for own, change in zip(effects.plan.quantities, one.changes) if change is None]
     if len(missing) == len(one.changes):
         return f"cannot be switched {one.to} here: see what its stage said"
-    matters = any(effects.scaled(k, change.size()) > effects.small(k) for k, change in enumerate(one.changes) if change is not None)
+    known = [(effects.scaled(k, change.size()), effects.scaled(k, change.error), effects.small(k)) for k, change in enumerate(one.changes)
+             if change is not None]
+    matters = any(size > max(small, CLEAR * error) for size, error, small in known)
     if missing:
         return f"{'keep' if one.to == 'off' else 'leave off'} (some results cannot be computed {'without' if one.to == 'off' else 'with'} it)"
+    if not matters and any(size + CLEAR * error > small for size, error, small in known if error > 0.0):
+        return f"{'keep' if one.to == 'off' else 'leave off'} (within twice the standard error: more cycles decide)"
     if one.to == "on":
         return "switch on" if matters else "leave off"
     if matters:

@@ -10,7 +10,7 @@ def write(effects):
     body = [section("What each effect changes and costs", f'<div class="card">{words(effects_of.report(effects))}</div>')]
     if effects.switches:
         body.append(section("By effect", f'<div class="card">{rows_of(effects_of.rows(effects))}</div>'))
-    base = [["quantity", "value of the scene"], *([own.name, f"{value.number():.6g} {own.unit}".rstrip() if value.is_number else f"{len(value.values)} values"]
+    base = [["quantity", "value of the scene"], *([own.name, f"{value.text(6)} {own.unit}".rstrip() if value.is_number else f"{len(value.values)} values"]
                                                   for own, value in zip(effects.plan.quantities, effects.base))]
     body.append(section("Without a change", f'<div class="card">{rows_of(base)}</div>'))
     text = page_of(f"Effects of {effects.plan.pipeline.resolve().name.replace('_', ' ')}", body)

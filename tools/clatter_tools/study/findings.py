@@ -105,7 +105,7 @@ def front(study, quantity):
 def headline(study, quantity):
     """"sound power: 87.1 dB(A), total error 0.19 dB(A) for 156 s; film cells along dominates with 0.19 dB(A)"."""
     own, value = study.plan.quantities[quantity], study.values[quantity][BASE]
-    known = f"{f'{value.number():.4g} {own.unit}'.rstrip()}, " if value.is_number else ""
+    known = f"{f'{value.text(4)} {own.unit}'.rstrip()}, " if value.is_number else ""
     parts = [(study.scaled(quantity, part.size()), study.plan.settings[number].name) for number, part in study.budgets[quantity].parts]
     error, name = max(parts, default=(0.0, ""))
     ruled = f"; {name} dominates with {error_text(study, quantity, error)}" if error > NOTHING * study.size(quantity) else ""
@@ -214,7 +214,7 @@ def variant_rows(study, quantity):
         if value is None:
             rows.append([one.name, "missing", "", ""])
             continue
-        shown = f"{value.number():.6g}" if value.is_number else f"{len(value.values)} values"
+        shown = value.text(6) if value.is_number else f"{len(value.values)} values"
         rows.append([one.name, shown, error_text(study, quantity, study.error(quantity, k)), f"{study.cost(k, quantity):.3g}{seconds_note(study, k, quantity)}"])
     return rows
 

@@ -8,8 +8,8 @@
 | slap_time | field | part, to_hz | of the liner's acceleration from 300 Hz to to_hz (without the key as far as the spectra reach, which is another quantity for each cut-off of the block): the first instant around firing TDC at which it reaches `part` of its largest value there, 0.75 without the key; 1: the instant of the largest, which jumps between peaks of about the same height (slap.py) [s] |
 | slap_height, rings_until | field | to_hz | largest value of the same, and when it has rung out [m/s2, s] |
 | third_octaves | field | of, from_hz, to_hz | curve of levels: of "sound", of panels/NAME (ERP) or of sensors/LABEL (acceleration); [dB] |
-| power_dba | field | | sound power [dB(A) re 1 pW] |
-| erp_dba | field | panel | equivalent radiated power of a panel [dB(A) re 1 pW] |
+| power_dba | field | | sound power, of a mean over cycles with its standard error [dB(A) re 1 pW] |
+| erp_dba | field | panel | equivalent radiated power of a panel, of a mean over cycles with its standard error [dB(A) re 1 pW] |
 | order | run, field | of, order | RMS of half an engine order: of a history, of sensors/LABEL, panels/NAME, or "sound" |
 | link_force | run | chain | largest tension of the joints of a chain over the last cycle [N] |
 | loss | run | element | mean power that a force element loses over the last cycle (energy/terms) [W]: friction and film of piston_liner |
@@ -45,15 +45,19 @@ MEANS = {"mean": lambda x, weights: weights @ x, "rms": lambda x, weights: np.sq
 
 @dataclasses.dataclass
 class Value:
-    """A number, or a curve: values at `at`; of a number both have one entry. beyond: why the model does not state it; empty where it does."""
+    """A number, or a curve: values at `at`; of a number both have one entry. beyond: why the model does not state it; empty where it does. error:
+    standard error of a mean, 0 of what is none."""
     values: np.ndarray
     at: np.ndarray
     beyond: str = ""
+    error: float = 0.0
 
     def minus(self, other):
-        """The difference where both are known."""
+        """The difference where both are known; means of different runs are independent."""
         mine, others = self.common(other)
-        return Value(self.values[mine] - other.values[others], self.at[mine]) if len(mine) else Value(np.array([np.nan]), np.zeros(1))
+        if not len(mine):
+            return Value(np.array([np.nan]), np.zeros(1))
+        return Value(self.values[mine] - other.values[others], self.at[mine], error=float(np.hypot(self.error, other.error)))
 
     def common(self, other):
         """Indices of the entries that both have."""
@@ -65,10 +69,10 @@ class Value:
         return float(self.values[mine] @ other.values[others])
 
     def plus(self, other):
-        return self.minus(Value(-other.values, other.at))
+        return self.minus(Value(-other.values, other.at, error=other.error))
 
     def times(self, factor):
-        return Value(factor * self.values, self.at)
+        return Value(factor * self.values, self.at, error=abs(factor) * self.error)
 
     def size(self):
         """The largest magnitude."""
@@ -81,6 +85,11 @@ class Value:
     def number(self):
         """With its sign; of a curve the entry of the largest magnitude."""
         return float(self.values[np.argmax(np.abs(self.values))]) if np.isfinite(self.values).all() else float("nan")
+
+
+    def text(self, digits):
+        """Of a number, with its standard error."""
+        return f"{self.number():.{digits}g}{fields.error_text(self.error or np.nan)}"
 
 
 def number(value):
@@ -171,16 +180,21 @@ def third_octaves(file, of, from_hz, to_hz):
 
 
 def power_dba(file):
-    at = fields.piece(file, "cycle", *fields.pieces(file))
+    at = fields.level_piece(file)
     found = fields.sound_power(file, at)
     if found is None:
         raise BadArtefact(f"{file.filename}: {at}/sound: found nothing, expected a field whose field.toml names a sound file")
-    return found.dba
+    return mean(found.dba, found.error)
 
 
 def erp_dba(file, panel):
-    at = fields.piece(file, "cycle", *fields.pieces(file))
-    return file[fields.panel(file, at, panel)].attrs["erp_dba"]
+    group = file[fields.panel(file, fields.level_piece(file), panel)]
+    return mean(group.attrs["erp_dba"], fields.standard_error(group, "erp"))
+
+
+def mean(value, error):
+    """A number with its standard error, nan where there is none."""
+    return dataclasses.replace(number(value), error=float(np.nan_to_num(error)))
 
 
 def of_order(file, of, order):
