@@ -99,7 +99,7 @@ FilmForce JournalFilm::force(const JournalMotion& motion, const Stage& stage,
 }
 
 void JournalFilm::finish_stage(const Stage& stage) {
-  oil_.finish_stage(reynolds_, cells_.content, stage.index, stage.kappa);
+  oil_.finish_stage(reynolds_, stage.index, stage.kappa, stage.weights);
 }
 
 void JournalFilm::accept_step() {

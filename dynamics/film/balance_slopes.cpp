@@ -31,15 +31,18 @@ void BalanceSlopes::subtract_by_speed(RowMatrix& rows) const {
   for (size_t f = 0; f < pad_.faces().size(); ++f) {
     if (!pad_.faces()[f].axial) continue;
     const FaceTerms& face = terms_.faces()[f];
-    const double flow = face.carry * split_.on_face(terms_, f).at(fill_[face.upstream()]) / speed;
+    const double flow = (face.carry * split_.on_face(terms_, f).at(fill_[face.upstream()]) +
+                         known_flow(PadFaces::face_flow(f))) /
+                        speed;
     at(face.a) -= flow;
     at(face.b) += flow;
   }
   for (size_t r = 0; r < pad_.rims().size(); ++r) {
     if (!pad_.rims()[r].axial) continue;
     const RimTerms& rim = terms_.rims()[r];
-    at(rim.cell) -= (rim.carry > 0.0 ? rim.carry * split_.on_rim(terms_, r).at(fill_[rim.cell])
-                                     : rim.entering) /
+    at(rim.cell) -= ((rim.carry > 0.0 ? rim.carry * split_.on_rim(terms_, r).at(fill_[rim.cell])
+                                      : rim.entering) +
+                     known_flow(pad_.rim_flow(r))) /
                     speed;
   }
   for (int c = 0; c < pad_.grid().size(); ++c) {
@@ -48,6 +51,13 @@ void BalanceSlopes::subtract_by_speed(RowMatrix& rows) const {
     at(c) -= std::abs(terms_.covered(c)) * split_.end_thickness(terms_, c, fill_[c], pressure_[c]) /
              speed;
   }
+}
+
+// What the wall carries in the stage over a face where it is known.
+double BalanceSlopes::known_flow(Eigen::Index flow) const {
+  const KnownFlows* known = terms_.stage().known;
+  if (known == nullptr || !known->at[static_cast<size_t>(flow)]) return 0.0;
+  return terms_.stage().kappa * known->rate[flow] / terms_.volume_scale();
 }
 
 void BalanceSlopes::subtract_storage(const RowMatrix& dh, RowMatrix& rows) const {
@@ -72,7 +82,7 @@ void BalanceSlopes::subtract_faces(const RowMatrix& dh, RowMatrix& rows) const {
     const FaceTerms& terms = terms_.faces()[f];
     const int a = face.a, b = face.b, upstream = terms.upstream();
     const Eigen::ArrayXd &g = film.flow(face.axial), &dg = film.d_flow(face.axial);
-    const OpenPart part = terms_.extent().open(face);
+    const OpenPart part = terms_.open_face(f);
     const double drive =
         mobility * face.length * part.length / part.distance * (pressure_[a] - pressure_[b]);
     const double moved = stage.duration() * stage.speed(face.axial) * face.length * part.carried /
@@ -113,7 +123,7 @@ void BalanceSlopes::subtract_rims(const RowMatrix& dh, RowMatrix& rows) const {
     const int c = rim.cell;
     const double g = film.flow(rim.axial)[c], dg = film.d_flow(rim.axial)[c];
     const double outward = rim.sign * stage.speed(rim.axial);
-    const OpenPart part = terms_.extent().open(rim);
+    const OpenPart part = terms_.open_rim(r);
     const double drive = terms_.mobility() * rim.length * part.length / part.distance *
                          (pressure_[c] - rim.edge.pressure);
     const double carried = outward <= 0.0 ? terms_.rims()[r].inflow.slope
@@ -152,7 +162,7 @@ Eigen::ArrayXd BalanceSlopes::by_height() const {
   for (size_t f = 0; f < pad_.faces().size(); ++f) {
     const Face& face = pad_.faces()[f];
     const int a = face.a, b = face.b;
-    const OpenPart part = terms_.extent().open(face);
+    const OpenPart part = terms_.open_face(f);
     const Eigen::ArrayXd& g = film.flow(face.axial);
     const auto [g_a, g_b] = part.beside(g[a], g[b]);
     const auto [c_a, c_b] = part.beside(film.carry[a], film.carry[b]);
@@ -178,7 +188,7 @@ Eigen::ArrayXd BalanceSlopes::by_height() const {
   for (size_t r = 0; r < pad_.rims().size(); ++r) {
     const Rim& rim = pad_.rims()[r];
     const int c = rim.cell;
-    const OpenPart part = terms_.extent().open(rim);
+    const OpenPart part = terms_.open_rim(r);
     const double g = film.flow(rim.axial)[c];
     const double outward = rim.sign * stage.speed(rim.axial);
     const double carried = outward > 0.0 ? split_.on_rim(terms_, r).at(fill_[c]) * film.carry[c]

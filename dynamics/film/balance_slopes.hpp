@@ -32,6 +32,7 @@ class BalanceSlopes {
   void subtract_faces(const RowMatrix& dh, RowMatrix& rows) const;
   void subtract_rims(const RowMatrix& dh, RowMatrix& rows) const;
   void subtract_grooves(const RowMatrix& dh, RowMatrix& rows) const;
+  double known_flow(Eigen::Index flow) const;
   Eigen::ArrayXd by_height() const;
 
   const StageTerms& terms_;

@@ -51,6 +51,10 @@ class FilmExtent {
   bool is_given(int cell) const {
     return is(CellKind::kGroove, cell) || is(CellKind::kOutside, cell);
   }
+  /// A film over the entire cell: inside the liner, and no recess covers a part of it.
+  bool is_plain(int cell) const {
+    return is(CellKind::kFilm, cell) && (!partial_ || cover_->share[cell % grid_.n_axial()] == 1.0);
+  }
   OpenPart open(const Face& face) const;
   OpenPart open(const Rim& rim) const;
 

@@ -2,6 +2,7 @@
 #pragma once
 // What the film of one pad is solved for: thicknesses, step and walls of one implicit stage.
 #include <Eigen/Core>
+#include <vector>
 
 #include "dynamics/film/cover.hpp"
 #include "dynamics/film/recess.hpp"
@@ -43,6 +44,13 @@ struct OutsideLayers {
   Eigen::ArrayXd begin, end;
 };
 
+/// Faces and rims over which the sliding wall carries oil as it lies, whatever the solution.
+struct KnownFlows {
+  std::vector<char> at;   // by face and rim, as PadFaces lists flows: its volume is known
+  Eigen::ArrayXd volume;  // carried since the start of the step, as flows [m3]
+  Eigen::ArrayXd rate;    // of it now [m3/s]
+};
+
 /// Data of one implicit stage that do not depend on the cell.
 struct FilmStage {
   double kappa = 1.0;      // dt * a_ii [s]
@@ -68,6 +76,9 @@ struct FilmStage {
   const RecessCells* recesses = nullptr;
   /// Instead of the layers of the edges; null: those.
   const OutsideLayers* outside = nullptr;
+  /// Where the wall carries nothing in this stage, because what it carried is in the content
+  /// before; null: nowhere.
+  const KnownFlows* known = nullptr;
 
   /// Of the balance over the stage [s]; 1 when steady.
   double duration() const { return steady ? 1.0 : kappa; }

@@ -27,7 +27,9 @@ PadFilm::PadFilm(const ContactModel& model, const PadGrid& grid, std::string pla
       place_(std::move(place)),
       reynolds_(grid, open_edges(model), options_.effects.cavitation,
                 has_grooves(options_.recesses)),
-      oil_(reynolds_, options_.liner_layer.has_value()) {
+      oil_(reynolds_) {
+  if (options_.effects.cavitation && options_.cavity == Cavity::kLayer)
+    covered_.emplace(reynolds_.pad());
   cells_.resize(grid.size());
   if (options_.liner_layer) layer_.emplace(*options_.liner_layer, reynolds_);
   for (Eigen::ArrayXd* values : {&shear_.inverse, &shear_.inverse_slope})
@@ -46,6 +48,7 @@ void PadFilm::start(const PadGap& gap, const PadState& state) {
   const double layers = options_.cavity == Cavity::kLayer ? 1.0 : 2.0;
   oil_.start((options_.initial_fill * cells_.content).min(layers * options_.oil_thickness) *
              gap.area() / gap.grid().area());
+  if (covered_) covered_->start(oil_.content().min(0.5 * cells_.carry));
   if (layer_) layer_->start(state.pin.ideal.position, options_.oil_thickness, in_gap());
 }
 
@@ -66,6 +69,7 @@ void PadFilm::solve(const PadGap& gap, const PadState& state, bool first_step) {
   stage.cover = gap.cover();
   stage.recesses = gap.recesses();
   if (layer_) stage.outside = &layer_->meet(state.travel);
+  if (covered_) stage.known = known_ = &covered_->slide(state.travel, cells_, stage);
   solve_equations(state, stage);
 }
 
@@ -83,7 +87,7 @@ void PadFilm::refuse_gap(const PadGap& gap, double lowest) const {
 
 void PadFilm::solve_equations(const PadState& state, const FilmStage& stage) {
   try {
-    solves_ += reynolds_.solve(cells_, oil_.before(reynolds_, state.stage.weights), stage);
+    solves_ += reynolds_.solve(cells_, oil_.before(reynolds_, state.stage.weights, known_), stage);
   } catch (const NumericsError& error) {
     throw dynamics::StepRefused(options_.name + ": the film's equations were not solved",
                                 fmt::format("{}: {}", place_, error.what()));
@@ -121,28 +125,30 @@ void PadFilm::add_friction(const PadGap& gap, double velocity, Friction& frictio
   friction.add_film(reynolds_, at, shear_, options_.viscosity, velocity);
 }
 
-void PadFilm::finish_stage(const PadGap& gap, const dynamics::Stage& stage) {
-  if (layer_) layer_->finish_stage(oil_, reynolds_, stage.weights, stage.kappa);
-  oil_.finish_stage(reynolds_, cells_.content * gap.area() / gap.grid().area(), stage.index,
-                    stage.kappa);
+void PadFilm::finish_stage(const dynamics::Stage& stage) {
+  oil_.finish_stage(reynolds_, stage.index, stage.kappa, stage.weights, known_);
 }
 
 void PadFilm::accept_step(double dt, double travel, const std::vector<double>& left) {
   oil_.accept_step();
-  if (layer_) layer_->advance(reynolds_.pad(), dt, travel, left, in_gap());
+  if (covered_) covered_->advance(travel, reynolds_, oil_, oil_.content());
+  if (layer_) layer_->advance(reynolds_.pad(), dt, travel, oil_.moved(), left, in_gap());
 }
 
 void PadFilm::save(std::vector<double>& state) const {
   oil_.save(state);
+  if (covered_) covered_->save(state);
   if (layer_) layer_->save(state);
 }
 
 size_t PadFilm::saved_size() const {
-  return oil_.saved_size() + (layer_ ? layer_->saved_size() : 0);
+  return oil_.saved_size() + (covered_ ? covered_->saved_size() : 0) +
+         (layer_ ? layer_->saved_size() : 0);
 }
 
 std::vector<double>::const_iterator PadFilm::restore(std::vector<double>::const_iterator next) {
   next = oil_.restore(next);
+  if (covered_) next = covered_->restore(next, oil_.profile());
   if (layer_) next = layer_->restore(next, in_gap());
   return next;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/film/covered_layer.hpp"
 #include "dynamics/film/oil_content.hpp"
 #include "dynamics/film/pad_gap.hpp"
 #include "dynamics/film/pad_layer.hpp"
@@ -43,7 +44,7 @@ class PadFilm {
   void add_friction(const PadGap& gap, double velocity, Friction& friction);
 
   void begin_step() { oil_.begin_step(); }
-  void finish_stage(const PadGap& gap, const dynamics::Stage& stage);
+  void finish_stage(const dynamics::Stage& stage);
   /// A step of `dt` [s] in which the pad moved by `travel` [m]; `left` [m]: what the rings leave.
   void accept_step(double dt, double travel, const std::vector<double>& left);
 
@@ -63,6 +64,8 @@ class PadFilm {
   Reynolds reynolds_;
   FilmCells cells_;
   OilContent oil_;
+  std::optional<CoveredLayer> covered_;  // of layers
+  const KnownFlows* known_ = nullptr;    // of the last stage
   std::optional<PadLayer> layer_;
   ShearThickness shear_;
   Eigen::ArrayXd viscosity_ratio_, viscosity_ratio_slope_;  // over the reference; empty: constant

@@ -13,9 +13,9 @@ const OutsideLayers& PadLayer::meet(double travel) {
   return outside_;
 }
 
-void PadLayer::advance(const PadFaces& pad, double dt, double travel,
+void PadLayer::advance(const PadFaces& pad, double dt, double travel, const Eigen::ArrayXd& moved,
                        const std::vector<double>& left, double in_gap) {
-  pad.add_up_edges(moved_, volumes_);
+  pad.add_up_edges(moved, volumes_);
   into_grooves_ += volumes_.recesses;
   moved_by_grooves_ += volumes_.recesses_moved;
   layer_.advance(dt, travel, volumes_, left);

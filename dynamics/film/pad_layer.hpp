@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "dynamics/film/liner_layer.hpp"
-#include "dynamics/film/oil_content.hpp"
 #include "dynamics/film/reynolds.hpp"
 
 namespace clatter::film {
@@ -21,14 +20,10 @@ class PadLayer {
   void start(double height, double thickness, double in_gap);
   /// What the edges meet when the pad has moved by `travel` [m] in the step.
   const OutsideLayers& meet(double travel);
-  /// Keeps what the step moved up to a finished stage; before OilContent::finish_stage().
-  void finish_stage(const OilContent& oil, const Reynolds& film, const std::vector<double>& weights,
-                    double kappa) {
-    oil.volumes(film, weights, kappa, moved_);
-  }
-  /// An accepted step, as LinerLayer::advance(), after which `in_gap` [m3] is in the gap.
-  void advance(const PadFaces& pad, double dt, double travel, const std::vector<double>& left,
-               double in_gap);
+  /// An accepted step, as LinerLayer::advance(), in which the film moved `moved`
+  /// (OilContent::moved()) and after which `in_gap` [m3] is in the gap.
+  void advance(const PadFaces& pad, double dt, double travel, const Eigen::ArrayXd& moved,
+               const std::vector<double>& left, double in_gap);
 
   const LinerLayer& layer() const { return layer_; }
   /// Of the last accepted step.
@@ -45,7 +40,6 @@ class PadLayer {
   LinerLayer layer_;
   bool has_grooves_;
   OutsideLayers outside_;
-  Eigen::ArrayXd moved_;  // up to the last stage, as flows [m3]
   EdgeVolumes volumes_;
   double first_ = 0.0;                                  // oil of pad and liner at the start [m3]
   double into_grooves_ = 0.0, moved_by_grooves_ = 0.0;  // since the start, and without sign [m3]

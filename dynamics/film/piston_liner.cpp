@@ -71,7 +71,7 @@ void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& 
   const dynamics::CrankLead& lead = stroke_.lead();
   if (!scales_.empty()) scaled_ = scales_.at(stage, lead);
   const PinStroke& pin = stroke_.now();
-  const double travel = model_.options.liner_layer ? stroke_.travel(stage) : 0.0;
+  const double travel = stroke_.travel(stage);
   const PadState now{stage,
                      pin,
                      stroke_.slide_by_turn(),
@@ -120,11 +120,11 @@ void PistonLiner::list_touched(dynamics::Response& response) {
 }
 
 void PistonLiner::finish_stage(const dynamics::Stage& stage) {
-  if (model_.options.liner_layer) travel_ = stroke_.travel(stage);
+  travel_ = stroke_.travel(stage);
   stroke_.finish_stage(stage);
   scales_.finish_stage(stage);
   for (const auto& pad : pads_)
-    if (pad->film()) pad->film()->finish_stage(pad->gap(), stage);
+    if (pad->film()) pad->film()->finish_stage(stage);
 }
 
 void PistonLiner::accept_step(double time) {

@@ -75,7 +75,7 @@ class PistonLiner : public dynamics::ForceElement {
   CycleScales scales_;              // of shapes of bore and skirt
   std::vector<ScaleState> scaled_;  // at the last stage
   double step_begin_ = 0.0;         // start of this step [s]
-  double travel_ = 0.0;             // stroke up to its last stage [m]; with the layer on the liner
+  double travel_ = 0.0;             // stroke up to its last stage [m]
   bool running_ = false;            // false: the content is still the initial one
   std::vector<int> touched_row_;    // of a coordinate in the response's tangent; -1: none
   int touched_count_ = 0;

@@ -29,6 +29,7 @@ Reynolds::Reynolds(const PadGrid& grid, const Edges& edges, bool cavitation, boo
   fill_.setOnes(n);
   for (Eigen::ArrayXd* values : {&pressure_, &balance_, &magnitude_}) values->setZero(n);
   flows_.setZero(terms_.pad().flow_count());
+  carried_.setZero(terms_.pad().flow_count());
 }
 
 int Reynolds::solve(const FilmCells& film, const Eigen::ArrayXd& content_before,
@@ -179,6 +180,7 @@ void Reynolds::measure() {
         face.conduct * (std::abs(pressure_[a]) + std::abs(pressure_[b])) / pressure_scale +
         std::abs(carried);
     flows_[PadFaces::face_flow(f)] = flow * flow_scale;
+    carried_[PadFaces::face_flow(f)] = carried * flow_scale;
     balance_[a] += flow;
     balance_[b] -= flow;
     magnitude_[a] += size;
@@ -195,6 +197,7 @@ void Reynolds::measure() {
     magnitude_[c] +=
         rim.conduct * (std::abs(pressure_[c]) + rim.pressure) / pressure_scale + std::abs(carried);
     flows_[terms_.pad().rim_flow(r)] = flow * flow_scale;
+    carried_[terms_.pad().rim_flow(r)] = carried * flow_scale;
     outflow_ += flow;
   }
   residual_ = 0.0;

@@ -75,6 +75,8 @@ class Reynolds {
   double residual() const { return residual_; }
   /// Volume flows as PadFaces lists them [m3/s].
   const Eigen::ArrayXd& flows() const { return flows_; }
+  /// The part of flows() that the wall carries over faces and rims; 0 where that is known.
+  const Eigen::ArrayXd& carried() const { return carried_; }
   /// Volume that flowed out over the edges and ends in the stage, kappa * sum of q n L [m3] (flow
   /// [m3/s] when steady).
   double outflow() const { return outflow_; }
@@ -86,6 +88,10 @@ class Reynolds {
                      const Eigen::VectorXd* height = nullptr);
   /// The same by the mean wall velocity along the axis [s/m], n; 0 where the wall is at rest.
   void speed_sensitivity(Eigen::ArrayXd& derivative);
+
+  // Of the last solution.
+  const FilmExtent& extent() const { return terms_.extent(); }
+  const FilmCells& cells() const { return terms_.film(); }
 
   const PadFaces& pad() const { return terms_.pad(); }
   const PadGrid& grid() const { return terms_.grid(); }
@@ -109,7 +115,7 @@ class Reynolds {
   BandedLu lu_;
   Eigen::VectorXd x_;  // p / pressure_scale of full cells, theta of others, by rows
   RowMatrix slopes_;   // by rows
-  Eigen::ArrayXd pressure_, fill_, flows_, balance_, magnitude_;
+  Eigen::ArrayXd pressure_, fill_, flows_, carried_, balance_, magnitude_;
   double residual_ = 0.0, outflow_ = 0.0;
 };
 

@@ -29,12 +29,25 @@ void StageTerms::set(const FilmCells& film, const Eigen::ArrayXd& content_before
   if (pad_.grooves()) weigh_grooves();
 }
 
+OpenPart StageTerms::open_face(size_t f) const {
+  OpenPart part = extent_.open(pad_.faces()[f]);
+  if (stage_.known != nullptr && stage_.known->at[f]) part.carried = part.carried_slope = 0.0;
+  return part;
+}
+
+OpenPart StageTerms::open_rim(size_t r) const {
+  OpenPart part = extent_.open(pad_.rims()[r]);
+  if (stage_.known != nullptr && stage_.known->at[pad_.rim_flow(r)])
+    part.carried = part.carried_slope = 0.0;
+  return part;
+}
+
 void StageTerms::weigh_faces(Sums& sums) {
   const double duration = stage_.duration();
   for (size_t f = 0; f < faces_.size(); ++f) {
     const Face& face = pad_.faces()[f];
     FaceTerms& terms = faces_[f];
-    const OpenPart part = extent_.open(face);
+    const OpenPart part = open_face(f);
     terms = {face.a, face.b};
     if (part.closed()) continue;
     const Eigen::ArrayXd& g = film_.flow(face.axial);
@@ -63,7 +76,7 @@ void StageTerms::weigh_rims(Sums& sums) {
     RimTerms& terms = rims_[r];
     terms = {c, rim.edge.pressure};
     if (extent_.is(CellKind::kOutside, c)) continue;
-    const OpenPart part = extent_.open(rim);
+    const OpenPart part = open_rim(r);
     const double g = film_.flow(rim.axial)[c], carry = film_.carry[c];
     terms.conduct = mobility_ * (g * g * g) * (rim.length * part.length) / part.distance;
     terms.carry = duration * stage_.speed(rim.axial) * (rim.length * part.carried) * carry;

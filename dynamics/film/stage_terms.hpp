@@ -79,6 +79,9 @@ class StageTerms {
   /// The cell with whose content a layer on the sliding wall is compared: that upstream, or beside
   /// a groove the one whose gap it fills.
   int content_cell(const FaceTerms& face) const;
+  /// The open part of face or rim `k`, over which the wall carries nothing where that is known.
+  OpenPart open_face(size_t f) const;
+  OpenPart open_rim(size_t r) const;
   /// Thickness that U_m carries in over an edge [m], with its slope by the gap.
   ValueSlope entering(const Edge& edge, int cell) const;
   /// Oil content of the cells relative to that when just full, theta + p / B; n.

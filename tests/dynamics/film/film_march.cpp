@@ -58,7 +58,7 @@ void FilmMarch::stage(int index, const Eigen::ArrayXd& h, double kappa,
   inner.kappa = kappa;
   if (running_) inner.profile_before = &oil_.profile();
   film_.solve(cells_, oil_.before(film_, weights), inner);
-  oil_.finish_stage(film_, cells_.content, index, kappa);
+  oil_.finish_stage(film_, index, kappa, weights);
 }
 
 void FilmMarch::implicit_euler(double dt) {

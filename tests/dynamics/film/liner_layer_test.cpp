@@ -172,7 +172,6 @@ double hump_error(int cells, const dynamics::Tableau& A) {
     return 0.1 * std::numbers::pi * std::sin(2.0 * std::numbers::pi * t);
   };
   OutsideLayers outside;
-  Eigen::ArrayXd moved;
   double rates[3] = {0.0, 0.0, 0.0};
   for (int k = 0; k < steps; ++k) {
     const double t = k * dt;
@@ -191,12 +190,11 @@ double hump_error(int cells, const dynamics::Tableau& A) {
       layer.meet(travel, outside.begin, outside.end);
       stage.outside = &outside;
       film.solve(film_cells, oil.before(film, weights), stage);
-      oil.volumes(film, weights, stage.kappa, moved);
-      oil.finish_stage(film, film_cells.content, i, stage.kappa);
+      oil.finish_stage(film, i, stage.kappa, weights);
     }
     oil.accept_step();
     EdgeVolumes edges;
-    film.pad().add_up_edges(moved, edges);
+    film.pad().add_up_edges(oil.moved(), edges);
     layer.advance(dt, travel, edges, {});
   }
   const Eigen::ArrayXXd last = layer.thickness();

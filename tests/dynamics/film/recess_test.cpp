@@ -153,8 +153,9 @@ TEST(Recess, ASkirtThatIsCutAwayAtItsEndsIsAShorterSkirt) {
   Driven shorter(options);
   for (Driven* one : {&cut, &shorter}) one->run(2e-3, 7e-3, 200, 5e-6);
   EXPECT_GT(shorter.response.force.norm(), 10.0);
-  EXPECT_LT((cut.response.force - shorter.response.force).norm(),
-            1e-8 * shorter.response.force.norm());
+  EXPECT_LT(
+      (cut.response.force - shorter.response.force).norm(),
+      1e-7 * shorter.response.force.norm());  // the flux over the edge of a window follows the fill
   const PadSnapshot one = cut.element->snapshot().front(),
                     other = shorter.element->snapshot().front();
   EXPECT_LT((one.pressure.middleCols(2, 9) - other.pressure).cwiseAbs().maxCoeff(),
