@@ -214,8 +214,9 @@ class Shell:
                 (programs / program).symlink_to(BIN / program)
         (programs / "clatter").symlink_to(SOURCE / "tools/clatter")
         caches = {"MPLCONFIGDIR": os.environ.get("MPLCONFIGDIR", str(pathlib.Path.home() / ".config/matplotlib"))}
-        self.environment = {**os.environ, **caches, "HOME": str(home), "PATH": f"{programs}:{os.environ['PATH']}",
-                            "CLATTER_BIN": str(BIN), "PYTHONDONTWRITEBYTECODE": "1", "MAKEFLAGS": ""}
+        own = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}  # of make check
+        self.environment = {**own, **caches, "HOME": str(home), "PATH": f"{programs}:{os.environ['PATH']}",
+                            "CLATTER_BIN": str(BIN), "PYTHONDONTWRITEBYTECODE": "1"}
 
     def lacks(self, program):
         return bool(program) and not shutil.which(program, path=self.environment["PATH"])
