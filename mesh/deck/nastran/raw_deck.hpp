@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "core/recipe/recipe.hpp"
 #include "mesh/deck/chunked.hpp"
 #include "mesh/deck/nastran/card.hpp"
 #include "mesh/deck/nastran/control.hpp"
+#include "mesh/deck/nastran/raw_bars.hpp"
 
 namespace clatter::mesh::deck::nastran {
 
@@ -195,27 +195,6 @@ struct RawDirect {
   Origin origin = 0;
   int form = 0;  // IFO, or kComplex; 0: no header
   std::vector<Entry> entries;
-};
-
-struct RawBar {      // CBAR, CBEAM, CROD, CONROD, CTUBE
-  std::string name;  // "cbar_5"
-  Origin origin = 0;
-  int32_t property = 0;
-  std::array<int32_t, 2> grids{};
-  int32_t orientation_grid = 0;  // G0
-  std::optional<std::array<double, 3>> orientation{};
-  bool orientation_is_basic = false, offset_is_basic = false;
-  std::array<DofMask, 2> released{};
-  std::array<std::array<double, 3>, 2> offset{};
-};
-
-struct RawBarProperty {  // PBAR, PBARL, PBEAM, PBEAML, PROD, PTUBE; CONROD
-  std::string card;      // its name
-  Origin origin = 0;
-  int32_t material = 0;
-  std::string refusal{};                        // why no bar can have it; "" for none
-  std::vector<double> shear_factors{};          // along y and z, or none
-  std::vector<recipe::BeamSection> sections{};  // in the deck's units
 };
 
 struct RawGlue {  // BGSET
