@@ -19,7 +19,7 @@ struct RawBar {      // CBAR, CBEAM, CROD, CONROD, CTUBE
   std::array<int32_t, 2> grids{};
   int32_t orientation_grid = 0;  // G0
   std::optional<std::array<double, 3>> orientation{};
-  bool orientation_is_basic = false, offset_is_basic = false;
+  bool orientation_is_basic = false;  // else along the axes of the first grid
   std::array<DofMask, 2> released{};
   std::array<std::array<double, 3>, 2> offset{};
 };
