@@ -79,6 +79,9 @@ void H5File::copy(const H5File& from, std::string_view source, std::string_view 
       impl_->fail_write(path);
     }
   }
+  // HDF5 1.14.5 cannot flush one dataset, as append() does, while others that were copied are in
+  // its cache ("slist not empty").
+  if (H5Fflush(impl_->file, H5F_SCOPE_LOCAL) < 0) impl_->fail_write(group);
 }
 
 }  // namespace clatter

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -101,6 +102,30 @@ TEST_F(Files, AppendedRowsAreTheRowsWrittenAtOnceUnderAnotherName) {
   EXPECT_EQ(numbers[1002], 1000.0);
   EXPECT_EQ(back.shape("cells"), (std::vector<int64_t>{1003, 2, 3}));
   EXPECT_EQ(back.shape("none"), (std::vector<int64_t>{0}));
+}
+
+// As a resumed run does: its records are copied from the checkpoint and grow.
+TEST_F(Files, CopiedDatasetsGrow) {
+  const int n_sets = 40;
+  {
+    H5File file = H5File::create(folder_ / "so_far.h5");
+    for (int k = 0; k < n_sets; ++k)
+      file.append(fmt::format("run/history/{}", k), std::vector<double>(30, k));
+    file.set("run", "name", "so far");
+    file.commit();
+  }
+  H5File file = H5File::create(folder_ / "grown.h5");
+  file.append("history/0", std::vector<double>{7.0});  // gives way
+  file.copy(H5File::open(folder_ / "so_far.h5"), "run", "/");
+  for (int k = 0; k < n_sets; ++k)
+    file.append(fmt::format("history/{}", k), std::vector<double>(2, -k));
+  file.commit();
+  const H5File grown = H5File::open(folder_ / "grown.h5");
+  for (int k = 0; k < n_sets; ++k) {
+    std::vector<double> expected(30, k);
+    expected.insert(expected.end(), 2, -k);
+    EXPECT_EQ(grown.read_doubles(fmt::format("history/{}", k)), expected);
+  }
 }
 
 TEST_F(Files, MatricesComeBackAsTheyWere) {
