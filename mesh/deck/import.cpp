@@ -11,6 +11,7 @@
 #include "core/base/log.hpp"
 #include "core/mesh/boundary.hpp"
 #include "mesh/deck/abaqus/reader.hpp"
+#include "mesh/deck/beam_ends.hpp"
 #include "mesh/deck/cell_repair.hpp"
 #include "mesh/deck/nastran/reader.hpp"
 
@@ -75,6 +76,7 @@ void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where, 
       deck.beams.empty())
     throw InputError(
         fmt::format("{}: found no solid cells, beams and springs, expected some", where));
+  settle_beam_ends(deck);
   std::ranges::move(repair_cells(deck.mesh, where), std::back_inserter(deck.renumbered));
   for (const Support& retained : deck.retained)
     if (!retained.system.empty())

@@ -26,13 +26,6 @@ class Bar {
     take_material(beam);
     beam.sections = property_.sections;
     beam.shear_factors = property_.shear_factors;
-    if (!model_.node_map.is_point(beam.ends[0]) && !model_.node_map.is_point(beam.ends[1])) {
-      for (recipe::BeamSection& section : beam.sections) section.J = 0.0;
-      model_.deck.notes.push_back(fmt::format(
-          "{}: {}: both ends are nodes of solids, which turn freely: it carries no torque, and its "
-          "ends are hinges",
-          model_.source.where(raw_.origin), raw_.name));
-    }
     const bool bends = beam.sections[0].I1 > 0.0 || beam.sections[0].I2 > 0.0;
     if (!bends || beam.G == 0.0) beam.shear_factors.clear();
     if (bends) beam.y = orientation(beam.ends[0]);

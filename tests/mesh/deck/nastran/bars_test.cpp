@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh/deck/beam_ends.hpp"
 #include "tests/mesh/deck/nastran/support.hpp"
 
 namespace clatter::test {
@@ -118,10 +119,20 @@ TEST(NastranBar, BeamsMayTaper) {
   EXPECT_NEAR(shape.sections[1].area, 6.0, 1e-14);
 }
 
-TEST(NastranBar, OnNodesOfSolidsItsEndsAreHinges) {
-  const Deck deck = read_deck(kTwo + "PBAR,3,7,2.,3.,4.,5.\nCBAR,1,3,1,2,0.,0.,1.\nENDDATA\n");
-  EXPECT_EQ(deck.beams.at(0).sections[0].J, 0.0);
-  EXPECT_THAT(deck.notes, testing::Contains(HasSubstr("cbar_1: both ends are nodes of solids")));
+TEST(NastranBar, EndsOnNodesOfSolidsAreHingesAndSaid) {
+  Deck deck = read_deck(kTwo +
+                        "PBAR,3,7,2.,3.,4.,5.\nCBAR,1,3,1,2,0.,0.,1.\nCBAR,2,3,3,9,1.,0.,0.\n"
+                        "CBAR,4,3,9,10,1.,0.,0.\nENDDATA\n");
+  const size_t notes = deck.notes.size();
+  settle_beam_ends(deck);
+  EXPECT_EQ(deck.beams.at(0).sections[0].J, 0.0);  // no end of it holds a torque
+  EXPECT_EQ(deck.beams.at(1).sections[0].J, 5.0);
+  ASSERT_EQ(deck.notes.size(), notes + 1);
+  EXPECT_THAT(deck.notes.back(), HasSubstr("t.bdf:12: 2 of 3 bars end on nodes of solids"));
+  deck.steps.push_back({.name = "warm", .where = "t.bdf:3", .temperature = "field"});
+  settle_beam_ends(deck);
+  EXPECT_THAT(deck.notes.back(),
+              HasSubstr("t.bdf:3: its temperatures expand solids alone: the 3 "));
 }
 
 TEST(NastranBar, WithoutMeaningIsRefusedByLine) {
