@@ -129,7 +129,9 @@ TEST(NastranBar, EndsOnNodesOfSolidsAreHingesAndSaid) {
   EXPECT_EQ(deck.beams.at(1).sections[0].J, 5.0);
   ASSERT_EQ(deck.notes.size(), notes + 1);
   EXPECT_THAT(deck.notes.back(), HasSubstr("t.bdf:12: 2 of 3 bars end on nodes of solids"));
-  deck.steps.push_back({.name = "warm", .where = "t.bdf:3", .temperature = "field"});
+  mesh::deck::Step& warm = deck.steps.emplace_back();
+  warm.where = "t.bdf:3";
+  warm.temperature = "field";
   settle_beam_ends(deck);
   EXPECT_THAT(deck.notes.back(),
               HasSubstr("t.bdf:3: its temperatures expand solids alone: the 3 "));
