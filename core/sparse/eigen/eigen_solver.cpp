@@ -133,7 +133,8 @@ void Search::prove(double limit) {
           fmt::format("modes: {:.6g} Hz is an eigenfrequency; choose another limit", hz));
     throw NumericsError(fmt::format(
         "modes: K - mu M is singular to rounding at {:.6g} Hz, between two computed modes, so that "
-        "none can be counted: the model has cells that are too flat, or jumps of stiffness",
+        "none can be counted: the model has cells that are too flat, jumps of stiffness, or points "
+        "without mass that nothing holds (a hinge)",
         hz));
   }
   modes_.proof.below = count.negative;
