@@ -127,6 +127,7 @@ class Page(Folder):
         label = {one["stem"]: number for number, one in enumerate(data["runs"])}
         self.assertIsNone(data["summary"]["base"])  # no scene names another one
         own = next(one for one in data["summary"]["loudest"] if one["run"] == label["dry"])
+        self.assertIn((own["run"], own["line"]), [(run["run"], run["loudest"]) for part in data["surface"]["parts"] for run in part["runs"]])
         with h5py.File(self.folder / "dry.field.h5") as field:
             at = field["analysis/cycle"]
             power = at["sound/power"][()]

@@ -139,7 +139,7 @@ function lineSize(run, k, corners) {
   return Math.sqrt((0.5 * sum) / corners);
 }
 
-/** The frequency of the strongest of a run's lines above 300 Hz, where a part moves elastically; else of its first. */
+/** The frequency of a run's loudest line; without a spectrum of the strongest above 300 Hz, where a part moves elastically. */
 function strongestLine(run, frequency) {
-  return run.strongest.find(hz => hz > 300) ?? run.strongest[0] ?? frequency[0];
+  return run.loudest ?? run.strongest.find(hz => hz > 300) ?? run.strongest[0] ?? frequency[0];
 }

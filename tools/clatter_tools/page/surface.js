@@ -102,7 +102,7 @@ class Surface {
       0,
       nearestIndex(
         frequency ?? [0],
-        run.strongest.at(-1) !== undefined ? strongestLine(run, frequency) : (frequency?.[1] ?? 0),
+        run.loudest || run.strongest.length ? strongestLine(run, frequency) : (frequency?.[1] ?? 0),
       ),
     );
     this.instant = this.loudestInstant();

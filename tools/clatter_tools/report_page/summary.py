@@ -19,17 +19,24 @@ def collect(folder, cards):
             "stale": stale(folder)}
 
 
+def loudest_line(field):
+    """Frequency [Hz] of the line with the largest A-weighted power; None where the spectrum has no peak."""
+    at = fields.level_piece(field)
+    frequency = artefact.dataset(field, f"{at}/frequency_hz")
+    power = artefact.dataset(field, fields.radiated(field, at).power)
+    lines = frequency[loudest_peaks(frequency, power, 1, field.attrs.get("spectra_from_hz", 0.0))]
+    return float(lines[0]) if len(lines) else None
+
+
 def loudest(one):
     """Of a run: its loudest third octave and line, and the panel from which most comes, with its share where the sound is known."""
     at = fields.level_piece(one.field)
     power = fields.radiated(one.field, at)
     band = artefact.text(artefact.dataset(one.field, f"{at}/third_octave/nominal")[int(np.argmax(artefact.dataset(one.field, power.bands)))])
-    frequency = artefact.dataset(one.field, f"{at}/frequency_hz")
-    lines = frequency[loudest_peaks(frequency, artefact.dataset(one.field, power.power), 1, one.field.attrs.get("spectra_from_hz", 0.0))]
     panels = {name: panel.attrs for name, panel in one.field[f"{at}/panels"].items() if name not in ("skin", "exposed")}
     key = "sound_power_share" if any("sound_power_share" in attrs for attrs in panels.values()) else "erp_dba"
     part = max((name for name in panels if key in panels[name]), key=lambda name: panels[name][key], default=None)
-    return {"run": one.number, "band": band, "line": float(lines[0]) if len(lines) else None, "part": part and part.replace("_", " "),
+    return {"run": one.number, "band": band, "line": loudest_line(one.field), "part": part and part.replace("_", " "),
             "share": float(panels[part][key]) if part and key == "sound_power_share" else None}
 
 

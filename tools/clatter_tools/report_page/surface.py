@@ -8,6 +8,7 @@ from clatter.artefact import dataset, open_artefact, stem, text
 from clatter.rom import Rom
 from . import shapes, skin
 from .folder import made_with
+from .summary import loudest_line
 
 MODES = 40           # elastic ones of a part, at most
 INSTANT_DEG = 1.0    # between instants of a cycle
@@ -86,8 +87,8 @@ def shown_run(pack, block, one, basis, values, spectral):
             "lines": [shapes.packed(pack, block, at_lines.real), shapes.packed(pack, block, at_lines.imag)],
             "rpm": one.field["analysis/cycle"].attrs.get("speed_rpm"),
             "angle": pack.add(block, angle[::step]), "time": pack.add(block, dataset(one.field, "analysis/cycle/time")[::step]),
-            "instants": shapes.packed(pack, block, at_instants), "strongest": list(dataset(one.field, "lines/frequency_hz")) if "lines" in
-            one.field else []}
+            "instants": shapes.packed(pack, block, at_instants), "loudest": loudest_line(one.field),
+            "strongest": list(dataset(one.field, "lines/frequency_hz")) if "lines" in one.field else []}
 
 
 def modes(rom):
@@ -129,7 +130,7 @@ def field_part(pack, one):
     at_instants, at_lines = own[:len(instants)], own[len(instants):len(instants) + len(lines)] + 1j * own[len(instants) + len(lines):]
     basis = shapes.Basis(nodes[corners], stacked, [rows.astype(complex) for rows in (at_instants, at_lines) if len(rows)])
     found["shapes"] = shapes.packed(pack, f"{block}_shapes", basis.shapes)
-    run = {"run": one.number, "strongest": [], "rpm": None}
+    run = {"run": one.number, "loudest": loudest_line(field), "strongest": [], "rpm": None}
     if len(lines):
         amount, error = basis.amounts(at_lines)
         run.update(lines=[shapes.packed(pack, block, amount.real), shapes.packed(pack, block, amount.imag)], line_error=pack.add(block, error),
