@@ -3,12 +3,14 @@
 // The elastic cells of a model, for stress recovery. In the file:
 //   regions, cells/<b>/nodes with attributes type and region, node_ids, materials/<r> (attributes
 //   rho, E and nu or dataset elasticity, expansion, conductivity, axes/, attributes hex8 ... of
-//   integration).
+//   integration), shells/<b> likewise, sections/<r> (attributes thickness, offset, bending, shear,
+//   area_mass).
 #include <string>
 #include <vector>
 
 #include "core/base/h5_file.hpp"
 #include "core/fe/material.hpp"
+#include "core/fe/shell_section.hpp"
 #include "core/mesh/mesh.hpp"
 
 namespace clatter::fe {
@@ -18,6 +20,8 @@ struct FeCells {
   std::vector<std::string> regions;     // names
   std::vector<Material> materials;      // one per region
   std::vector<mesh::CellBlock> blocks;  // cells by type and region
+  std::vector<mesh::ShellBlock> shells;
+  std::vector<ShellSection> sections;  // one per region; of those with shells
   std::vector<int32_t> node_ids;        // node numbers of an imported mesh; empty: index + 1
 
   /// User-visible node number.

@@ -42,6 +42,14 @@ struct FePoints {
   SparseMatrix T_s;    // 6 n_points x n_s
 };
 
+/// Rotations of the nodes of shells: rows 3 k + d (rx ry rz) of the transformations for node k of
+/// the list.
+struct FeRotations {
+  std::vector<int32_t> nodes;  // ascending
+  SparseMatrix T;              // 3 nodes x n
+  SparseMatrix T_s;            // 3 nodes x n_s
+};
+
 /// A steady temperature field.
 struct HeatField {
   Eigen::VectorXd temperature;          // n_nodes [K]
@@ -65,6 +73,7 @@ struct FeModel {
       rigid;            // n x 6: q of unit rigid-body motions x, y, z, rx, ry, rz about the origin
   FeSupports supports;  // supported DoFs
   FePoints points;
+  FeRotations rotations;
   double alpha = 0.0;                                    // D = alpha K + beta M [s]
   double beta = 0.0;                                     // [1/s]
   std::map<std::string, rom::DofSet> sets;               // named DoFs: contacts, bearings, sensors

@@ -21,13 +21,26 @@ struct CellBlock {
   std::vector<int32_t> ids;  // cell numbers of the imported file; empty: none
 };
 
+/// Cells of a shell: mid-surfaces of sheet, of one type and one region. Their nodes have rotations
+/// too.
+struct ShellBlock {
+  FaceType type = FaceType::kQuad4;
+  int32_t region = 0;        // index into Mesh::regions; no region has both solids and shells
+  IndexMatrix nodes;         // cells x nodes per cell, order of cell.hpp; their side is outward
+  std::vector<int32_t> ids;  // cell numbers of the imported file; empty: none
+  RowMatrix thickness;       // of each cell at its nodes [m]; empty: that of the region
+  Eigen::VectorXd offset;    // of each cell: from its nodes to its mid-surface, outward [m]; or
+                             // empty: that of the region
+};
+
 /// Faces of one type.
 struct FaceBlock {
   FaceType type = FaceType::kTri6;
   IndexMatrix nodes;  // faces x nodes per face, order of cell.hpp, outward
 };
 
-/// Boundary faces of the solid, each belonging to one cell, or to two in different regions.
+/// Boundary faces of the solid, each belonging to one cell, or to two in different regions; or faces
+/// that are shells.
 struct Surface {
   std::vector<FaceBlock> faces;  // each type at most once
 
@@ -50,13 +63,14 @@ class SurfaceBuilder {
 /// fe.toml), so that such a cell matches adjacent linear cells.
 inline constexpr const char* kHangingMidSideNodes = "hanging_mid_side_nodes";
 
-/// One part. Every mesh has the surface "skin": all boundary faces of the solid.
+/// One part. Every mesh has the surface "skin": all boundary faces of the solids, and all shells.
 struct Mesh {
   std::string name;
   RowMatrix nodes;                   // n x 3 [m]
   std::vector<int32_t> node_ids;     // node numbers of the imported file; empty: index + 1
   std::vector<std::string> regions;  // names; each region has one material
   std::vector<CellBlock> cells;
+  std::vector<ShellBlock> shells;
   std::map<std::string, Surface> surfaces;
   std::map<std::string, std::vector<int32_t>> node_sets;  // ascending
   std::map<std::string, RowMatrix> fields;  // n x k values at the nodes, k = 1 or 3 (SI)

@@ -15,6 +15,7 @@
 #include "core/base/units.hpp"
 #include "core/fe/axes.hpp"
 #include "core/fe/material.hpp"
+#include "core/fe/shell_section.hpp"
 #include "core/keys/source.hpp"
 
 namespace clatter::recipe {
@@ -26,6 +27,14 @@ struct RegionMaterial {
   Source source;
   fe::MaterialTable material;
   std::vector<std::string> regions;
+};
+
+/// [[shell]]: the section of the shells of some regions, where the mesh has no thickness or offset of
+/// its own.
+struct Shell {
+  Source source{};
+  std::vector<std::string> regions{};
+  fe::ShellSection section{};
 };
 
 /// [matrices]: matrices of another program, instead of all other tables.
@@ -313,6 +322,7 @@ struct File {
   double metre = 1.0;  // unit of lengths without one in the file, and of its CSV files [m]
   std::map<std::string, fe::AxesTable> systems;
   std::map<std::string, RegionMaterial> materials;
+  std::vector<Shell> shells;
   std::optional<MatrixFiles> matrix_files;  // which are read elsewhere
   Mass mass;
   Damping damping;

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Stiffness and mass of a cell of a shell, six DoFs a node, by one kinematics for triangles and
+// quadrilaterals:
+//   X = sum h_i (x_i + z t_i/2 V_i),   u = sum h_i (u_i + z t_i/2 theta_i x V_i),   -1 <= z <= 1
+// V_i: director of node i in this cell (shell_directors.hpp). A rigid motion has no strain, on a
+// warped cell too.
+//
+//   tri3   MITC3+: shear tied at points, rotations with a bubble (Y. Lee, P.-S. Lee, K.-J. Bathe,
+//          Computers and Structures 138, 2014)
+//   quad4  MITC4+: shear tied at the sides (E. N. Dvorkin, K.-J. Bathe, Engng Comput. 1, 1984), the
+//          membrane free of what a warped cell adds (Y. Ko, P.-S. Lee, K.-J. Bathe, Computers and
+//          Structures 182, 2017), four enhanced membrane strains (J. C. Simo, M. S. Rifai, Int. J.
+//          Numer. Meth. Engng 29, 1990)
+#include <Eigen/Core>
+
+#include "core/fe/shell_section.hpp"
+#include "core/mesh/cell.hpp"
+
+namespace clatter::fe {
+
+using ShellNodes = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 4, 3>;
+using ShellMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 24, 24>;
+
+struct ShellCell {
+  mesh::FaceType type = mesh::FaceType::kQuad4;    // or kTri3
+  ShellNodes x;                                    // n x 3 [m]
+  ShellNodes directors;                            // n x 3, unit
+  ShellStiffness stiffness;                        // at `thickness`
+  double thickness = 0.0;                          // [m]
+  Eigen::VectorXd ratio;                           // of the thickness at each node to it; empty: 1
+  double offset = 0.0;                             // from the nodes to the mid-surface [m]
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // of direction 1, projected; 0: the first side
+};
+
+/// Rows and columns: x y z rx ry rz of each node, in the global axes.
+struct ShellMatrices {
+  ShellMatrix stiffness;  // 6n x 6n [N/m, N, N m]
+  ShellMatrix mass;       // 6n x 6n [kg, kg m, kg m2]
+};
+
+/// @return false where the cell is no shell: concave, folded to a triangle or without area.
+bool compute_shell(const ShellCell& cell, MassForm form, ShellMatrices& out);
+
+/// Generalised strains at a point of the cell, in its axes (columns: 1, 2, normal).
+struct ShellStrains {
+  Eigen::Vector3d membrane, curvature;  // 11, 22, 12 (engineering) [1], [1/m]
+  Eigen::Vector2d shear;                // 13, 23
+  Eigen::Matrix3d axes;
+  double ratio = 1.0;  // of the thickness there
+};
+
+/// Of displacements `u` (6n), also of what the cell has beside its nodes.
+/// @param at r, s of the reference cell: -1 to 1 of a quad4; 0 to 1 of a tri3.
+ShellStrains shell_strains(const ShellCell& cell, const Eigen::VectorXd& u,
+                           const Eigen::Vector2d& at);
+
+}  // namespace clatter::fe
