@@ -147,8 +147,13 @@ std::vector<std::string> describe(const NewMesh& result) {
                               c.cells, c.nodes, c.dofs));
   if (result.mesh.cell_count() == 0) return lines;
   for (size_t r = 0; r < result.mesh.regions.size(); ++r) {
-    lines.push_back(fmt::format("mesh: region {}: volume {:.6g} m3", result.mesh.regions[r],
-                                cell_volume(result.mesh, static_cast<int32_t>(r))));
+    const auto region = static_cast<int32_t>(r);
+    const double area =
+        integrate(result.mesh, shell_surface(result.mesh, region), Eigen::Vector3d::Zero()).area;
+    lines.push_back(fmt::format(
+        "mesh: region {}: {}", result.mesh.regions[r],
+        area > 0.0 ? fmt::format("area of shells {:.6g} m2", area)
+                   : fmt::format("volume {:.6g} m3", cell_volume(result.mesh, region))));
   }
   if (const Pieces pieces = pieces_of(result.mesh); pieces.count > 1)
     lines.push_back(fmt::format(
@@ -157,6 +162,7 @@ std::vector<std::string> describe(const NewMesh& result) {
         pieces.count, pieces.coincident_nodes));
   if (c.volume_against_cad)
     lines.push_back(fmt::format("mesh: volume against CAD {:+.2e}", *c.volume_against_cad));
+  if (result.mesh.cells.empty()) return lines;
   lines.push_back(fmt::format("mesh: volume against the surface integral {:.1e}",
                               c.volume_against_surface_integral));
   lines.push_back(

@@ -66,7 +66,7 @@ void compute_modes(const ModesArguments& a, const ModeFinder& finder, const Comm
   if (!a.config.empty()) read.push_back(a.config);
   write_artefact(a.output, {kModesSchema, resolved, read}, clock, common,
                  [&](H5File& file) { write_modes(file, part); });
-  export_results(a.output, full.cells.blocks.empty() ? std::filesystem::path() : a.model,
+  export_results(a.output, full.cells.regions.empty() ? std::filesystem::path() : a.model,
                  a.exports);
   print_json_result(a.output, modes::json_of(part), clock, common);
 }

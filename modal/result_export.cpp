@@ -99,11 +99,13 @@ mesh::Mesh drawn_mesh(const H5File& results, const Path& cells) {
   if (file.get_string("/", "schema") == mesh::kMeshSchema) {
     mesh::Mesh own = mesh::read_mesh(cells);
     drawn.cells = std::move(own.cells);
+    drawn.shells = std::move(own.shells);
     drawn.regions = std::move(own.regions);
     drawn.node_ids = std::move(own.node_ids);
   } else {
     fe::FeCells own = fe::read_cells(open_artefact(cells, fe::kFeSchema), file.read_rows("nodes"));
     drawn.cells = std::move(own.blocks);
+    drawn.shells = std::move(own.shells);
     drawn.regions = std::move(own.regions);
     drawn.node_ids = std::move(own.node_ids);
   }

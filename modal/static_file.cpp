@@ -16,13 +16,12 @@ RowMatrix rows_of(const Eigen::VectorXd& values, Eigen::Index width) {
   return Eigen::Map<const RowMatrix>(values.data(), values.size() / width, width);
 }
 
-void write_stress(H5File& file, const fe::FeModel& model, const StaticCase& solved) {
-  for (size_t r = 0; r < solved.stress.size(); ++r) {
-    const std::string& region = model.cells.regions[r];
-    const fe::RegionStress& stress = solved.stress[r];
-    if (!file.has("stress_nodes/" + region)) file.write("stress_nodes/" + region, stress.nodes);
-    file.write("cases/" + solved.name + "/stress/" + region, RowMatrix(stress.stress));
-    file.write("cases/" + solved.name + "/von_mises/" + region, stress.von_mises);
+void write_stress(H5File& file, const StaticCase& solved) {
+  for (const fe::RegionStress& stress : solved.stress) {
+    if (!file.has("stress_nodes/" + stress.name))
+      file.write("stress_nodes/" + stress.name, stress.nodes);
+    file.write("cases/" + solved.name + "/stress/" + stress.name, RowMatrix(stress.stress));
+    file.write("cases/" + solved.name + "/von_mises/" + stress.name, stress.von_mises);
   }
 }
 
@@ -33,6 +32,7 @@ void write_static(H5File& file, const fe::FeModel& model, const StaticSolution& 
   file.write("nodes", model.nodes);
   mesh::write_surfaces(file, model.surfaces);
   if (!model.cells.node_ids.empty()) file.write("node_ids", model.cells.node_ids);
+  if (!model.rotations.nodes.empty()) file.write("rotation_nodes", model.rotations.nodes);
   if (model.supports.size() > 0) fe::write_supported(file, model.supports);
   if (!model.points.names.empty()) {
     file.write("points/names", model.points.names);
@@ -43,6 +43,7 @@ void write_static(H5File& file, const fe::FeModel& model, const StaticSolution& 
   for (const StaticCase& one : solution.cases) {
     const std::string group = "cases/" + one.name + "/";
     file.write(group + "displacement", rows_of(one.displacement, 3));
+    if (one.rotation.size() > 0) file.write(group + "rotation", rows_of(one.rotation, 3));
     if (one.temperature_rise.size() > 0)
       file.write(group + "temperature_rise", one.temperature_rise);
     if (one.points.size() > 0) file.write(group + "points", rows_of(one.points, 6));
@@ -51,7 +52,7 @@ void write_static(H5File& file, const fe::FeModel& model, const StaticSolution& 
       file.write(group + "support_sums", one.support_sums);
     }
     file.write(group + "applied", one.applied);
-    write_stress(file, model, one);
+    write_stress(file, one);
     file.set("cases/" + one.name, "energy", one.energy);
     file.set("cases/" + one.name, "backward_error", one.backward_error);
     file.set("cases/" + one.name, "forward_error", one.forward_error);

@@ -53,27 +53,26 @@ std::string place_of(const fe::FeModel& model, int32_t node) {
 
 }  // namespace
 
-NodeStress largest_stress(const fe::FeModel& model, const StaticCase& solved) {
+NodeStress largest_stress(const StaticCase& solved) {
   NodeStress out;
   out.von_mises = -1.0;
-  for (size_t r = 0; r < solved.stress.size(); ++r) {
-    const fe::RegionStress& region = solved.stress[r];
+  for (const fe::RegionStress& region : solved.stress) {
     if (region.nodes.empty()) continue;
     Eigen::Index row = 0;
     if (const double most = region.von_mises.maxCoeff(&row); most > out.von_mises)
-      out = {model.cells.regions[r], region.nodes[row], region.stress.row(row).transpose(), most};
+      out = {region.name, region.nodes[row], region.stress.row(row).transpose(), most};
   }
   return out;
 }
 
 std::string describe_largest_stress(const fe::FeModel& model, const StaticCase& solved) {
-  const NodeStress most = largest_stress(model, solved);
+  const NodeStress most = largest_stress(solved);
   return fmt::format("  largest von Mises stress {:.6g} Pa in {}, {}", most.von_mises, most.region,
                      place_of(model, most.node));
 }
 
 std::vector<int32_t> nodes_at(const fe::FeModel& model, const std::vector<std::string>& locations) {
-  if (!locations.empty() && model.cells.blocks.empty())
+  if (!locations.empty() && model.cells.regions.empty())
     throw InputError(fmt::format(
         "{}: --stress-at: found a model without cells, expected one of clatter-assembly",
         model.name));
@@ -86,17 +85,17 @@ std::vector<int32_t> nodes_at(const fe::FeModel& model, const std::vector<std::s
 std::vector<std::string> describe_stress(const fe::FeModel& model, const StaticCase& solved,
                                          int32_t node) {
   std::vector<std::string> lines;
-  for (size_t r = 0; r < solved.stress.size(); ++r) {
-    const std::vector<int32_t>& nodes = solved.stress[r].nodes;
+  for (const fe::RegionStress& region : solved.stress) {
+    const std::vector<int32_t>& nodes = region.nodes;
     const auto found = std::lower_bound(nodes.begin(), nodes.end(), node);
     if (found == nodes.end() || *found != node) continue;
     const Eigen::Index row = found - nodes.begin();
-    const auto s = solved.stress[r].stress.row(row);
+    const auto s = region.stress.row(row);
     lines.push_back(fmt::format(
         "{}: {}, {}: xx {:.6g} yy {:.6g} zz {:.6g} xy {:.6g} yz {:.6g} zx {:.6g}, von Mises "
         "{:.6g} Pa",
-        solved.name, place_of(model, node), model.cells.regions[r], s(0), s(1), s(2), s(3), s(4),
-        s(5), solved.stress[r].von_mises(row)));
+        solved.name, place_of(model, node), region.name, s(0), s(1), s(2), s(3), s(4), s(5),
+        region.von_mises(row)));
   }
   return lines;
 }

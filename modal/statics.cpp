@@ -5,11 +5,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
 #include "core/base/error.hpp"
 #include "core/fe/free_motions.hpp"
+#include "core/fe/shell_stress.hpp"
 #include "core/modes/factor_failure.hpp"
 #include "modal/certificates.hpp"
 #include "modal/refined_solve.hpp"
@@ -149,6 +151,7 @@ StaticCase recover(const fe::FeModel& model, const Eigen::VectorXd& q, const Eig
   const Eigen::VectorXd elastic = multiply_symmetric(model.K, q);
   out.displacement = model.T * q;
   if (!model.points.names.empty()) out.points = model.points.T * q;
+  if (!model.rotations.nodes.empty()) out.rotation = model.rotations.T * q;
   out.applied = model.rigid.transpose() * f;
   out.energy = 0.5 * q.dot(elastic);
   out.reactions = Eigen::VectorXd::Zero(supports.size());
@@ -158,6 +161,7 @@ StaticCase recover(const fe::FeModel& model, const Eigen::VectorXd& q, const Eig
     const Eigen::VectorXd on_s = multiply_symmetric(supports.K_ss, s);
     out.displacement += supports.T * s;
     if (out.points.size() > 0) out.points += model.points.T_s * s;
+    if (out.rotation.size() > 0) out.rotation += model.rotations.T_s * s;
     out.applied += supports.rigid.transpose() * f_s;
     out.energy += q.dot(on_q) + 0.5 * s.dot(on_s);
     const Eigen::VectorXd by_q = supports.K_sq * q;
@@ -187,6 +191,15 @@ sparse::SupernodalFactor factor_of(const fe::FeModel& model) {
     std::iota(all.begin(), all.end(), 0);
     throw modes::explained(model, "K", all, error);
   }
+}
+
+std::vector<fe::RegionStress> stresses_of(const fe::FeModel& model, const StaticCase& solved) {
+  std::vector<fe::RegionStress> all =
+      fe::nodal_stress(model.nodes, model.cells, solved.displacement, solved.temperature_rise);
+  std::ranges::move(fe::shell_stress(model.nodes, model.cells, solved.displacement,
+                                     model.rotations.nodes, solved.rotation),
+                    std::back_inserter(all));
+  return all;
 }
 
 void refuse_inexact(const fe::FeModel& model, const StaticCase& found) {
@@ -220,8 +233,7 @@ StaticSolution solve_held(const fe::FeModel& model, const std::vector<std::strin
     found.loads = factors_of(model, names[c]);
     refuse_inexact(model, found);
     found.temperature_rise = temperature_rise(model, found.loads);
-    found.stress =
-        fe::nodal_stress(model.nodes, model.cells, found.displacement, found.temperature_rise);
+    found.stress = stresses_of(model, found);
     solution.cases.push_back(std::move(found));
   }
   return solution;
@@ -252,8 +264,7 @@ StaticSolution solve_static(const fe::FeModel& model, const std::vector<std::str
     found.forward_error = solved.forward[col];
     refuse_inexact(model, found);
     found.temperature_rise = temperature_rise(model, found.loads);
-    found.stress =
-        fe::nodal_stress(model.nodes, model.cells, found.displacement, found.temperature_rise);
+    found.stress = stresses_of(model, found);
     solution.cases.push_back(std::move(found));
   }
   return solution;

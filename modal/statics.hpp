@@ -19,6 +19,7 @@ struct StaticCase {
   std::string name;
   std::map<std::string, double> loads;  // factor of each
   Eigen::VectorXd displacement;         // 3 n_nodes [m]: row 3 a + d is node a, direction d
+  Eigen::VectorXd rotation;             // 3 of each node of shells [rad]; or empty
   Eigen::VectorXd temperature_rise;     // n_nodes [K]; empty without loads of temperature
   Eigen::VectorXd points;               // 6 n_points: x y z [m], rx ry rz [rad] of each
   Eigen::VectorXd reactions;            // n_s [N, N m]: forces of the supports on the part
@@ -30,7 +31,7 @@ struct StaticCase {
   double balance = 0.0;  // |applied + reactions| over the sum of force magnitudes; moments over
                          // half the part's diagonal
   double balance_rounding = 0.0;         // part explained by rounding, where it is above 1e-8
-  std::vector<fe::RegionStress> stress;  // one per region; empty when the model has no cells
+  std::vector<fe::RegionStress> stress;  // one per region, two of shells; none without cells
 };
 
 struct StaticSolution {
@@ -55,7 +56,7 @@ struct NodeStress {
 };
 
 /// The largest von Mises stress of a case with stresses.
-NodeStress largest_stress(const fe::FeModel& model, const StaticCase& solved);
+NodeStress largest_stress(const StaticCase& solved);
 
 /// The same as a line of text.
 std::string describe_largest_stress(const fe::FeModel& model, const StaticCase& solved);

@@ -33,7 +33,7 @@ void compute_statics(const StaticsArguments& a, const CommonOptions& common) {
 
   write_artefact(a.output, {kStaticSchema, "", {a.model}}, clock, common,
                  [&](H5File& file) { write_static(file, model, solution); });
-  export_results(a.output, model.cells.blocks.empty() ? std::filesystem::path() : a.model,
+  export_results(a.output, model.cells.regions.empty() ? std::filesystem::path() : a.model,
                  a.exports);
   print_json_result(a.output, json_of(model, solution), clock, common);
 }

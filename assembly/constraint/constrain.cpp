@@ -11,7 +11,7 @@
 namespace clatter::assembly {
 namespace {
 
-/// Unit rigid motions of all nodes and points.
+/// Unit rigid motions of all nodes, points and rotations of nodes.
 Eigen::MatrixXd rigid_of(const RowMatrix& nodes, const DofNumbers& numbers) {
   Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(numbers.count(), 6);
   for (Eigen::Index a = 0; a < nodes.rows(); ++a)
@@ -25,6 +25,8 @@ Eigen::MatrixXd rigid_of(const RowMatrix& nodes, const DofNumbers& numbers) {
     const Eigen::Index row = numbers.nodal() + 6 * static_cast<Eigen::Index>(p);
     rigid.block<3, 3>(row + 3, 3).setIdentity();
   }
+  for (Eigen::Index row = numbers.first_rotation(); row < numbers.count(); row += 3)
+    rigid.block<3, 3>(row, 3).setIdentity();
   return rigid;
 }
 
@@ -89,7 +91,8 @@ Constrained constrain(const PartData& part) {
           .grounded = grounded_motions(part, nodal_rigid),
           .springs = relations.springs,
           .matrix_dofs = relations.matrix_dofs,
-          .rigid_of_node = rigid_body_of_nodes(part, relations.references),
+          .rigid_of_node = rigid_body_of_nodes(part, relations.references, 3),
+          .rigid_of_turning_node = rigid_body_of_nodes(part, relations.references, 6),
           .sets = sets_of_coordinates(part, {relations, turned.ids}, faces.sets, elimination),
           .grids = std::move(faces.grids),
           .held = held_in_order(elimination, held),

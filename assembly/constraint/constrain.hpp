@@ -23,6 +23,7 @@ struct Constrained {
   std::vector<Functional> springs;      // elongation of each [[spring]]
   std::vector<Functional> matrix_dofs;  // of each [[matrix]]: one id per row
   std::vector<int32_t> rigid_of_node;   // n_nodes: id of the rigid body that it belongs to, or -1
+  std::vector<int32_t> rigid_of_turning_node;  // the same where its rotations belong to it too
   std::map<std::string, rom::DofSet> sets;
   std::map<std::string, rom::ContactGrid> grids;
   std::vector<HeldDof> held;    // n_s, in the order of the supported coordinates

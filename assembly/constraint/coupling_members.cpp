@@ -38,8 +38,8 @@ std::vector<Member> coupling_members(const PartData& part, const CouplingSpec& s
         const bool requested = std::count(term.directions.begin(), term.directions.end(), d) > 0;
         if (requested && !member.has(d))
           throw InputError(
-              fmt::format("{}: found {} of a node, expected displacements (nodes have "
-                          "no rotations)",
+              fmt::format("{}: found {} of a node of solids, expected displacements (it has no "
+                          "rotations)",
                           term.selection.where, kDofNames[d]));
         if (!requested) member.dofs[d] = -1;
       }

@@ -88,14 +88,15 @@ Functional Eliminator::express(const Functional& functional) {
   return out;
 }
 
-std::vector<bool> Eliminator::moves_nodes(int64_t nodal_dofs) const {
+std::vector<bool> Eliminator::moves_any(const std::vector<std::pair<int64_t, int64_t>>& ids) const {
   std::vector<bool> moves(state_.size(), false);
-  for (int64_t dof = 0; dof < nodal_dofs; ++dof) {
-    const int32_t state = state_[dof];
-    moves[dof] = true;
-    if (state < 0) continue;
-    for (const auto& entry : pivot_rows_[state]) moves[entry.first] = true;
-  }
+  for (const auto& [first, last] : ids)
+    for (int64_t dof = first; dof < last; ++dof) {
+      const int32_t state = state_[dof];
+      moves[dof] = true;
+      if (state < 0) continue;
+      for (const auto& entry : pivot_rows_[state]) moves[entry.first] = true;
+    }
   return moves;
 }
 

@@ -81,8 +81,8 @@ class Eliminator {
   bool is_coordinate(int32_t id) const;
   bool is_held(int32_t id) const;
   bool is_eliminated(int32_t id) const { return state_[id] >= 0; }
-  /// Ids that nodal displacements depend on, and those displacements themselves, as flags.
-  std::vector<bool> moves_nodes(int64_t nodal_dofs) const;
+  /// Ids of the ranges [first, last) and those that they depend on, as flags.
+  std::vector<bool> moves_any(const std::vector<std::pair<int64_t, int64_t>>& ids) const;
 
   Elimination finish() const;
 

@@ -55,9 +55,11 @@ Eliminator eliminate_dependences(const PartData& part, const Relations& relation
   for (const auto& [id, held] : aligned) fixed.push_back(id);
   const DofNumbers& numbers = part.numbers;
   Eliminator eliminator(numbers.count(), fixed, kept_dofs(part, relations));
-  for (size_t p = 0; p < numbers.points().size(); ++p)  // displacements of points on nodes
-    for (int d = 0; d < 3 && numbers.points()[p].node >= 0; ++d)
-      eliminator.drop(static_cast<int32_t>(numbers.nodal() + 6 * static_cast<int64_t>(p)) + d);
+  for (size_t p = 0; p < numbers.points().size(); ++p)  // what points share with their nodes
+    for (int d = 0; d < 6; ++d) {
+      const auto own = static_cast<int32_t>(numbers.nodal() + 6 * static_cast<int64_t>(p)) + d;
+      if (numbers.of_point(static_cast<int32_t>(p), d) != own) eliminator.drop(own);
+    }
   eliminator.add_coordinates(6 * static_cast<int>(relations.references.size()));
   eliminator.add_coordinates(static_cast<int>(relations.bolts.size()));
   for (const Dependence& one : relations.dependences) eliminator.depend(one.dof, one.on);

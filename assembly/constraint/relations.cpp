@@ -54,6 +54,8 @@ int32_t nearest_node(const mesh::Mesh& mesh, const NodeSpec& spec,
   double size = 0.0;
   for (const mesh::CellBlock& block : mesh.cells)
     size = std::max(size, size_around(mesh.nodes, block.nodes, nearest));
+  for (const mesh::ShellBlock& block : mesh.shells)
+    size = std::max(size, size_around(mesh.nodes, block.nodes, nearest));
   require_near(fmt::format("{}: near: the nearest node", spec.where), *spec.near,
                mesh.nodes.row(nearest).transpose(), size, "length_unit");
   return nearest;
@@ -317,15 +319,16 @@ Relations gather_relations(const PartData& part) {
 }
 
 std::vector<int32_t> rigid_body_of_nodes(const PartData& part,
-                                         const std::map<std::string, ReferenceDofs>& references) {
+                                         const std::map<std::string, ReferenceDofs>& references,
+                                         int directions) {
   std::vector<int32_t> body(static_cast<size_t>(part.mesh.nodes.rows()), -1);
   for (const CouplingSpec& spec : part.recipe.couplings) {
     if (!spec.rigid) continue;
     const bool on_point = !spec.on_point.empty();
     const int32_t point = on_point ? point_named(part, spec.on_point) : -1;
     const int32_t id = on_point ? part.numbers.of_point(point, 3) : references.at(spec.name).ids[3];
-    const bool wholly = std::count_if(spec.directions.begin(), spec.directions.end(),
-                                      [](int d) { return d < 3; }) == 3;
+    const bool wholly =
+        std::ranges::count_if(spec.directions, [&](int d) { return d < directions; }) == directions;
     for (const TermSpec& followers : spec.terms)
       for (const NodeOrPoint owner : selected(followers.selection, part.mesh, part.numbers))
         if (wholly && !owner.is_point()) body[owner.index] = id;

@@ -52,9 +52,11 @@ struct Relations {
 Relations gather_relations(const PartData& part);
 
 /// The id of the rigid body of each node, or -1: cells between nodes of one body do not deform.
-/// @param references own reference nodes, by coupling. @return n_nodes.
+/// @param references own reference nodes, by coupling.
+/// @param directions that belong to it: 3, displacements, or 6, rotations too. @return n_nodes.
 std::vector<int32_t> rigid_body_of_nodes(const PartData& part,
-                                         const std::map<std::string, ReferenceDofs>& references);
+                                         const std::map<std::string, ReferenceDofs>& references,
+                                         int directions);
 
 /// Values of equations, elongations of springs and forces of stiffness matrices for the six unit
 /// rigid motions, each relative to its largest term; those that are zero for each motion are left

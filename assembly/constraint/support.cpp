@@ -69,6 +69,7 @@ std::vector<HeldGroup> plan_supports(const Recipe& recipe, const mesh::Mesh& mes
     for (const NodeOrPoint owner : selected(spec.selection, mesh, numbers)) {
       const Eigen::Matrix3d axes = spec.axes.at(numbers.position(owner));
       for (const int d : spec.directions) {
+        if (numbers.of(owner, d) < 0) continue;  // a rotation of a node of solids
         HeldDof held;
         held.support = static_cast<int>(s);
         held.owner = owner;

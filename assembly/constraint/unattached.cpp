@@ -56,7 +56,7 @@ void for_each_elastic(const PartData& part, const Relations& relations, const Bo
 /// Ids that nodes, springs or stiffness matrices depend on.
 std::vector<bool> moving_ids(const PartData& part, const Relations& relations,
                              Eliminator& eliminator) {
-  std::vector<bool> moves = eliminator.moves_nodes(part.numbers.nodal());
+  std::vector<bool> moves = eliminator.moves_any(part.numbers.of_nodes());
   for_each_elastic(part, relations, [&](const Functional& one) {
     for (const int32_t id : one.dofs) moves[id] = true;
     for (const int32_t id : eliminator.express(one).dofs) moves[id] = true;
@@ -237,8 +237,8 @@ Motions drop_unattached(const PartData& part, const Relations& relations, Elimin
   const std::vector<Reference> references = references_of(part, relations);
   for (const Reference& reference : references) drop_loose(reference, flags, eliminator);
   const std::vector<Matrix6> moved = motion_grams(references, eliminator, [&](const auto& add) {
-    for (int64_t dof = 0; dof < part.numbers.nodal(); ++dof)
-      add({{static_cast<int32_t>(dof)}, {1.0}});
+    for (const auto& [first, last] : part.numbers.of_nodes())
+      for (int64_t dof = first; dof < last; ++dof) add({{static_cast<int32_t>(dof)}, {1.0}});
     for_each_elastic(part, relations, add);
   });
   const std::vector<Matrix6> mass = motion_grams(references, eliminator, [&](const auto& add) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Numbers (ids) of the DoFs before anything is eliminated: nodes first, then reference points.
+// Numbers (ids) of the DoFs before anything is eliminated: displacements of nodes first, then
+// reference points, then rotations of the nodes of shells.
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/matrix.hpp"
@@ -13,7 +15,8 @@ namespace clatter::assembly {
 
 using fe::kDofNames;
 
-/// A reference point with six DoFs. One on a mesh node shares the node's displacements.
+/// A reference point with six DoFs. One on a mesh node shares the node's displacements, and its
+/// rotations where it has some.
 struct ReferencePoint {
   std::string name;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // [m]
@@ -29,18 +32,29 @@ struct NodeOrPoint {
   int32_t point() const { return -1 - index; }
 };
 
-/// Ids: node a has 3 a + d; point p has 3 n_nodes + 6 p + d, except for the displacements of a
-/// point on a node. Generalised coordinates follow.
+/// Ids: node a has 3 a + d; point p has 3 n_nodes + 6 p + d, except for what a point on a node
+/// shares with it; rotation d of the k-th turning node has 3 n_nodes + 6 n_points + 3 k + d.
+/// Generalised coordinates follow.
 class DofNumbers {
  public:
-  DofNumbers(const RowMatrix& nodes, const std::vector<ReferencePoint>& points)
-      : nodes_(nodes), points_(points) {}
+  /// @param turning nodes with rotations, ascending.
+  DofNumbers(const RowMatrix& nodes, const std::vector<ReferencePoint>& points,
+             std::vector<int32_t> turning = {})
+      : nodes_(nodes), points_(points), turning_(std::move(turning)) {}
 
   int64_t nodal() const { return 3 * nodes_.rows(); }
-  int64_t count() const { return nodal() + 6 * static_cast<int64_t>(points_.size()); }
+  int64_t first_rotation() const { return nodal() + 6 * static_cast<int64_t>(points_.size()); }
+  int64_t count() const { return first_rotation() + 3 * static_cast<int64_t>(turning_.size()); }
+  /// The ids of nodes: first and one past the last of displacements, and of rotations.
+  std::vector<std::pair<int64_t, int64_t>> of_nodes() const {
+    return {{0, nodal()}, {first_rotation(), count()}};
+  }
+  const std::vector<int32_t>& turning() const { return turning_; }
+  /// The first of the three rotations of a node, -1 for a node of solids.
+  int32_t rotation_of(int32_t node) const;
   /// DoF d (0 ... 5) of a point.
   int32_t of_point(int32_t point, int d) const;
-  /// DoF d of a node or point, -1 for a rotation of a node.
+  /// DoF d of a node or point, -1 for a rotation of a node of solids.
   int32_t of(NodeOrPoint owner, int d) const;
   Eigen::Vector3d position(NodeOrPoint owner) const;
   /// "node 17 x", "point hub rx"; `node_ids` (Mesh::node_ids) are the numbers in the user's deck;
@@ -51,6 +65,7 @@ class DofNumbers {
  private:
   const RowMatrix& nodes_;
   const std::vector<ReferencePoint>& points_;
+  std::vector<int32_t> turning_;
 };
 
 }  // namespace clatter::assembly

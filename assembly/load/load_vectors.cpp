@@ -62,10 +62,13 @@ Eigen::VectorXd body_force(const PartData& part, const Eigen::MatrixXd& momentum
 }
 
 /// rho r on the elements, m r on the masses of points, r from the axis.
-Eigen::VectorXd rotation_force(const PartData& part, const LoadSpec& load) {
+Eigen::VectorXd rotation_force(const PartData& part, const LoadSpec& load,
+                               const LoadInputs& inputs) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(part.numbers.count());
   forces.head(3 * part.mesh.nodes.rows()) =
       centrifugal_load(part.mesh, part.recipe.materials, load.axis, load.rotating);
+  if (const auto shells = inputs.of_shells.find(load.name); shells != inputs.of_shells.end())
+    forces += shells->second;
   if (!load.rotating.empty()) return forces;
   for (const PointMassSpec& spec : part.recipe.point_masses) {
     const int32_t point = find_point(part.recipe, spec.on);
@@ -98,7 +101,7 @@ Eigen::VectorXd point_force(const DofNumbers& numbers, int32_t point, const Load
   return forces;
 }
 
-/// Forces on the nodes (3 n_nodes); zero for a load that acts otherwise.
+/// Forces on the nodes (3 n_nodes, or all ids); zero for a load that acts otherwise.
 Eigen::VectorXd nodal_forces(const PartData& part, const LoadSpec& load, const LoadInputs& inputs) {
   const Eigen::Index n_nodes = part.mesh.nodes.rows();
   switch (load.kind) {
@@ -130,12 +133,13 @@ Eigen::VectorXd nodal_forces(const PartData& part, const LoadSpec& load, const L
 /// Forces on nodes and points (n_dofs), without those on sets.
 Eigen::VectorXd forces_of(const PartData& part, const LoadSpec& load, const LoadInputs& inputs) {
   if (load.is_uniform_acceleration()) return body_force(part, inputs.momentum, load.force);
-  if (load.kind == LoadSpec::Kind::kCentrifugal) return rotation_force(part, load);
+  if (load.kind == LoadSpec::Kind::kCentrifugal) return rotation_force(part, load, inputs);
   if (load.kind == LoadSpec::Kind::kForce)
     if (const int32_t point = find_point(part.recipe, load.set); point >= 0)
       return point_force(part.numbers, point, load);
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(part.numbers.count());
-  forces.head(3 * part.mesh.nodes.rows()) = nodal_forces(part, load, inputs);
+  const Eigen::VectorXd nodal = nodal_forces(part, load, inputs);
+  forces.head(nodal.size()) = nodal;
   return forces;
 }
 
@@ -174,6 +178,7 @@ Eigen::VectorXd prescribed_displacement(const PartData& part, const Constrained&
     const Eigen::Matrix3d axes = load.axes.at(part.numbers.position(owner));
     for (const int d : load.directions) {
       const int32_t id = part.numbers.of(owner, d);
+      if (id < 0) continue;  // a rotation of a node of solids
       Eigen::Index match = -1;
       for (size_t k = 0; k < constrained.held.size(); ++k) {
         const HeldDof& held = constrained.held[k];

@@ -24,8 +24,10 @@ using HeatFields = std::map<std::string, fe::HeatField>;
 
 /// What some loads need in addition to the recipe.
 struct LoadInputs {
-  Eigen::MatrixXd momentum;  // 3 n_nodes x 3: M times unit accelerations of all nodes; or empty
-  std::map<std::string, Eigen::VectorXd> of_fields;  // 3 n_nodes: M a of acceleration fields
+  // In the ids of nodes alone (3 n_nodes), or of all DoFs where there are shells.
+  Eigen::MatrixXd momentum;  // M times unit accelerations of all nodes (3 columns); or empty
+  std::map<std::string, Eigen::VectorXd> of_fields;  // M a of acceleration fields
+  std::map<std::string, Eigen::VectorXd> of_shells;  // M a of the shells of centrifugal loads
   HeatFields heat;                                   // of the [[heat]] tables
 };
 

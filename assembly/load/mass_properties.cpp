@@ -32,6 +32,7 @@ MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<fe::Materia
                           second += dm * arm * arm.transpose();
                         });
   }
+  if (mass == 0.0) return {};  // shells alone
   const Eigen::Vector3d from = first / mass;
   return {mass, about + from, second - mass * from * from.transpose()};
 }

@@ -17,6 +17,7 @@
 #include "assembly/model/check.hpp"
 #include "core/base/named.hpp"
 #include "core/fe/assemble.hpp"
+#include "core/fe/assemble_shells.hpp"
 #include "core/rom/rigid_mass.hpp"
 
 namespace clatter::assembly {
@@ -35,10 +36,54 @@ std::vector<ReferencePoint> reference_points(const Recipe& recipe) {
   return points;
 }
 
-/// The first `nodal` rows of a transformation: those of the nodes.
-SparseMatrix nodal_rows(const SparseMatrix& T, Eigen::Index nodal) {
+/// Some rows of a transformation.
+SparseMatrix rows_of(const SparseMatrix& T, Eigen::Index first, Eigen::Index count) {
   const SparseMatrix t = T.transpose();
-  return SparseMatrix(t.leftCols(nodal)).transpose();
+  return SparseMatrix(t.middleCols(first, count)).transpose();
+}
+
+/// Those of the displacements of nodes.
+SparseMatrix nodal_rows(const SparseMatrix& T, Eigen::Index nodal) { return rows_of(T, 0, nodal); }
+
+/// Those of the rotations of nodes.
+fe::FeRotations rotations_of(const DofNumbers& numbers, const Elimination& elimination) {
+  const auto first = static_cast<Eigen::Index>(numbers.first_rotation());
+  const auto count = static_cast<Eigen::Index>(numbers.count()) - first;
+  return {numbers.turning(), rows_of(elimination.T, first, count),
+          rows_of(elimination.T_s, first, count)};
+}
+
+fe::ShellIds shell_ids(const DofNumbers& numbers, Eigen::Index n_nodes) {
+  fe::ShellIds ids{numbers.count(), std::vector<int32_t>(static_cast<size_t>(n_nodes), -1)};
+  for (const int32_t node : numbers.turning()) ids.rotation_of[node] = numbers.rotation_of(node);
+  return ids;
+}
+
+/// `to` with more rows and columns, of all ids, and the shells.
+void add(SparseMatrix& to, const SparseMatrix& shells) {
+  to.conservativeResize(shells.rows(), shells.cols());
+  to += shells;
+}
+
+/// M a of the shells of each centrifugal load.
+std::map<std::string, Eigen::VectorXd> rotation_of_shells(const PartData& part) {
+  std::map<std::string, Eigen::VectorXd> all;
+  const mesh::Mesh& mesh = part.mesh;
+  if (mesh.shells.empty()) return all;
+  const fe::ShellIds ids = shell_ids(part.numbers, mesh.nodes.rows());
+  Eigen::VectorXd arms = Eigen::VectorXd::Zero(part.numbers.count());
+  for (const LoadSpec& load : part.recipe.loads) {
+    if (load.kind != LoadSpec::Kind::kCentrifugal) continue;
+    mesh::Mesh rotating = mesh;
+    std::erase_if(rotating.shells, [&](const mesh::ShellBlock& block) {
+      return !load.rotating.empty() && std::ranges::count(load.rotating, block.region) == 0;
+    });
+    for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
+      arms.segment<3>(3 * a) = load.axis.arm(mesh.nodes.row(a).transpose());
+    all[load.name] = multiply_symmetric(
+        fe::assemble_shells(rotating, part.recipe.materials, part.recipe.sections, ids).M, arms);
+  }
+  return all;
 }
 
 /// Picks the rows 6 p + d of the points' DoFs: 6 n_points x n_dofs.
@@ -68,23 +113,26 @@ fe::FePoints points_of(const DofNumbers& numbers, const Elimination& elimination
   return points;
 }
 
-/// M times unit accelerations, 3 n_nodes x 3, when a load needs it.
-Eigen::MatrixXd momentum_of(const SparseMatrix& M, const Recipe& recipe) {
-  for (const LoadSpec& load : recipe.loads)
-    if (load.is_uniform_acceleration())
-      return multiply_symmetric(M, Eigen::Matrix3d::Identity().replicate(M.rows() / 3, 1));
+/// M times unit accelerations of all nodes (3 columns), when a load needs it.
+Eigen::MatrixXd momentum_of(const SparseMatrix& M, const PartData& part) {
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(M.rows(), 3);
+  unit.topRows(part.numbers.nodal()) =
+      Eigen::Matrix3d::Identity().replicate(part.mesh.nodes.rows(), 1);
+  for (const LoadSpec& load : part.recipe.loads)
+    if (load.is_uniform_acceleration()) return multiply_symmetric(M, unit);
   return {};
 }
 
-/// M a of each load with a field of accelerations: 3 n_nodes.
+/// M a of each load with a field of accelerations.
 std::map<std::string, Eigen::VectorXd> momenta_of_fields(const SparseMatrix& M,
                                                          const PartData& part) {
   std::map<std::string, Eigen::VectorXd> momenta;
   for (const LoadSpec& load : part.recipe.loads) {
     if (load.kind != LoadSpec::Kind::kAcceleration || load.field.empty()) continue;
     const RowMatrix& field = part.mesh.fields.at(load.field);
-    const Eigen::Map<const Eigen::VectorXd> a(field.data(), field.size());
-    momenta[load.name] = multiply_symmetric(M, load.amount * a);
+    Eigen::VectorXd a = Eigen::VectorXd::Zero(M.rows());
+    a.head(field.size()) = load.amount * field.reshaped<Eigen::RowMajor>();
+    momenta[load.name] = multiply_symmetric(M, a);
   }
   return momenta;
 }
@@ -159,9 +207,14 @@ void add_point_masses(CoordinateBlocks& M, const PartData& part, const Constrain
   M.qq.makeCompressed();
 }
 
-/// Of the cells, point masses and mass matrices.
-rom::MassProperties mass_of(const PartData& part, const Constrained& constrained) {
+/// Of the cells, point masses and mass matrices. @param shells the mass of the shells, or empty.
+rom::MassProperties mass_of(const PartData& part, const Constrained& constrained,
+                            const SparseMatrix& shells) {
   MassMoments moments = integrate_mass(part.mesh, part.recipe.materials);
+  if (shells.nonZeros() > 0) {
+    const rom::MassProperties added = properties_of(shells, constrained.nodal_rigid);
+    add_point(moments, added.mass, added.centre, added.inertia);
+  }
   for (const PointMassSpec& spec : part.recipe.point_masses) {
     const Eigen::Index point = point_of(part.numbers, spec);
     if (point < 0) {
@@ -184,7 +237,7 @@ rom::MassProperties mass_of(const PartData& part, const Constrained& constrained
 
 BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepClock& clock) {
   const std::vector<ReferencePoint> references = reference_points(recipe);
-  const DofNumbers numbers(mesh.nodes, references);
+  const DofNumbers numbers(mesh.nodes, references, mesh::turning_nodes(mesh));
   SurfaceCache surfaces(mesh);
   const PartData part{mesh, recipe, numbers, surfaces};
 
@@ -197,9 +250,18 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
   clock.lap("pattern");
   fe::NodalMatrices nodal =
       fe::assemble(mesh, recipe.materials, pattern, recipe.mass, constrained.rigid_of_node);
+  fe::NodalMatrices shells;
+  if (!mesh.shells.empty()) {
+    shells = fe::assemble_shells(mesh, recipe.materials, recipe.sections,
+                                 shell_ids(numbers, mesh.nodes.rows()), recipe.mass,
+                                 constrained.rigid_of_turning_node);
+    add(nodal.K, shells.K);
+    add(nodal.M, shells.M);
+  }
   clock.lap("assemble");
-  LoadInputs inputs{.momentum = momentum_of(nodal.M, recipe),
+  LoadInputs inputs{.momentum = momentum_of(nodal.M, part),
                     .of_fields = momenta_of_fields(nodal.M, part),
+                    .of_shells = rotation_of_shells(part),
                     .heat = solve_heat(part, pattern)};
   if (!inputs.heat.empty()) clock.lap("heat");
   CoordinateBlocks K = transform_with_supports(std::move(nodal.K), elimination);
@@ -209,7 +271,7 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
   add_matrices(recipe.matrices, constrained.matrix_dofs, true, elimination, M);
   clock.lap("transform");
   add_point_masses(M, part, constrained, points);
-  const rom::MassProperties mass = mass_of(part, constrained);
+  const rom::MassProperties mass = mass_of(part, constrained, shells.M);
   check_references(mesh.name, constrained.sets, M.qq);
   check_stiffness(mesh, constrained.sets, K.qq);
   LoadVectors loads = load_vectors(part, constrained, inputs);
@@ -224,6 +286,7 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
                 .rigid = constrained.rigid,
                 .supports = supports_of(part, constrained, K, M),
                 .points = {points.names, points.position, taken(points.T), taken(points.T_s)},
+                .rotations = rotations_of(numbers, elimination),
                 .alpha = recipe.damping.alpha,
                 .beta = recipe.damping.beta,
                 .sets = constrained.sets,
@@ -235,7 +298,8 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
                 .heat = std::move(inputs.heat),
                 .cases = recipe.cases,
                 .surfaces = mesh.surfaces,
-                .cells = {mesh.regions, recipe.materials, mesh.cells, mesh.node_ids},
+                .cells = {mesh.regions, recipe.materials, mesh.cells, mesh.shells, recipe.sections,
+                          mesh.node_ids},
                 .mass = mass,
                 .deck = mesh.deck,
                 .load_units = std::move(loads.units)},

@@ -167,7 +167,8 @@ struct LoadSpec : recipe::Load {
 };
 
 struct Recipe {
-  std::vector<fe::Material> materials;  // one per region of the mesh
+  std::vector<fe::Material> materials;     // one per region of the mesh
+  std::vector<fe::ShellSection> sections;  // likewise; of those with shells
   fe::MassForm mass = fe::MassForm::kConsistent;
   recipe::Damping damping;
   std::vector<PointSpec> points;

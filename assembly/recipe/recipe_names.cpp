@@ -72,12 +72,18 @@ const fe::Axes& RecipeNames::axes(const keys::Source& table, const std::string& 
   return systems.at(name);
 }
 
-void check_directions(const keys::Source& table, const recipe::Selection& selection,
-                      const std::vector<int>& directions) {
-  for (const int d : directions)
-    if (d >= 3 && selection.point.empty())
-      table.fail("directions", fmt::format("found \"{}\", expected x, y or z: nodes do not rotate",
-                                           kDofNames[d]));
+void RecipeNames::check_directions(const keys::Source& table, std::string_view key,
+                                   const recipe::Selection& selection,
+                                   const std::vector<int>& directions) const {
+  const auto rotation = std::ranges::find_if(directions, [](int d) { return d >= 3; });
+  if (rotation == directions.end() || !selection.point.empty()) return;
+  const std::vector<int32_t> nodes = selection.surface.empty()
+                                         ? mesh.node_set(selection.node_set)
+                                         : mesh::nodes_of(mesh.surface(selection.surface));
+  if (std::ranges::none_of(nodes,
+                           [&](int32_t node) { return std::ranges::binary_search(turning, node); }))
+    table.fail(key, fmt::format("found \"{}\", expected x, y or z: nodes of solids do not rotate",
+                                kDofNames[*rotation]));
 }
 
 }  // namespace clatter::assembly

@@ -18,6 +18,7 @@ struct RecipeNames {
   std::set<std::string> sets{}, points{};  // sets: also of points
   std::set<std::string> ties{}, heats{}, loads{};
   std::map<std::string, fe::Axes> systems{};
+  std::vector<int32_t> turning = mesh::turning_nodes(mesh);  // nodes with rotations
 
   /// The surface or node set exists and is not empty.
   void check_surface(const keys::Source& table, const std::string& name,
@@ -27,6 +28,10 @@ struct RecipeNames {
   Selection selection(const keys::Source& table, const std::string& what,
                       const recipe::Selection& given) const;
   void check(const keys::Source& table, const recipe::Selection& selection) const;
+  /// Refuses rotations where no node has any.
+  void check_directions(const keys::Source& table, std::string_view key,
+                        const recipe::Selection& selection,
+                        const std::vector<int>& directions) const;
   /// The only node of a set.
   int32_t only_node(const keys::Source& table, const std::string& node_set) const;
   /// The number of a region.
@@ -49,9 +54,5 @@ std::set<std::string> names_of(const Map& map) {
   for (const auto& entry : map) names.insert(entry.first);
   return names;
 }
-
-/// Refuses rotations of nodes, which have none.
-void check_directions(const keys::Source& table, const recipe::Selection& selection,
-                      const std::vector<int>& directions);
 
 }  // namespace clatter::assembly

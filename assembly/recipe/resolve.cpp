@@ -35,6 +35,38 @@ std::vector<fe::Material> Resolver::materials(const recipe::File& file) const {
   return materials;
 }
 
+/// Of regions with shells, whose materials are isotropic.
+std::vector<fe::ShellSection> Resolver::sections(const recipe::File& file) const {
+  const mesh::Mesh& mesh = names_.mesh;
+  std::vector<bool> shells(mesh.regions.size(), false), given = shells;
+  for (const mesh::ShellBlock& block : mesh.shells) shells[block.region] = true;
+  std::vector<fe::ShellSection> sections(mesh.regions.size());
+  for (const recipe::Shell& shell : file.shells)
+    for (const std::string& name : shell.regions) {
+      const int32_t region = names_.region(shell.source, "regions", name);
+      if (!shells[region])
+        shell.source.fail("regions",
+                          fmt::format("found \"{}\", a region of solids, expected shells", name));
+      if (given[region])
+        shell.source.fail("regions",
+                          fmt::format("found \"{}\" in two [[shell]], expected one", name));
+      given[region] = true;
+      sections[region] = shell.section;
+    }
+  for (const mesh::ShellBlock& block : mesh.shells) {
+    const std::string& region = mesh.regions[block.region];
+    if (block.thickness.size() == 0 && !(sections[block.region].thickness > 0.0))
+      file.source.fail("shell", fmt::format("found no thickness of region \"{}\", expected "
+                                            "[[shell]] with regions = [\"{}\"] and thickness",
+                                            region, region));
+    if (!materials_[block.region].is_isotropic())
+      file.source.fail("material", fmt::format("found none that is isotropic for region \"{}\", "
+                                               "expected E and nu: it has shells",
+                                               region));
+  }
+  return sections;
+}
+
 /// Mid-side nodes without a cell of their own need straight edges.
 void Resolver::check_hanging(const recipe::File& file) const {
   const bool named = std::ranges::any_of(file.straight_edges, [](const auto& edges) {
@@ -73,6 +105,7 @@ Recipe Resolver::resolve(const recipe::File& file) {
   // In this order: later tables name earlier ones.
   Recipe out;
   out.materials = materials_;
+  out.sections = sections(file);
   out.mass = file.mass.form;
   out.damping = file.damping;
   out.points = each(file.points, &Resolver::point);

@@ -32,6 +32,7 @@ class Resolver {
   }
 
   std::vector<fe::Material> materials(const recipe::File& file) const;
+  std::vector<fe::ShellSection> sections(const recipe::File& file) const;
   void check_hanging(const recipe::File& file) const;
   PointSpec point(const recipe::Point& point, size_t number);
   SupportSpec support(const recipe::Support& support, size_t number);

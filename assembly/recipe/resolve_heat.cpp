@@ -52,6 +52,11 @@ HeatSpec::Source Resolver::source(const recipe::Heat::HeatSource& source) const 
 
 HeatSpec Resolver::heat(const recipe::Heat& heat, size_t) {
   HeatSpec spec{.name = heat.name, .where = where(heat.source, "heat " + heat.name)};
+  if (!names_.mesh.shells.empty())
+    heat.source.fail("name", fmt::format("found the shells of region \"{}\", which do not conduct, "
+                                         "expected solids alone: a [[load]] of temperature takes a "
+                                         "field of another program",
+                                         names_.mesh.regions[names_.mesh.shells[0].region]));
   for (const auto& one : heat.films) spec.films.push_back(film(one));
   for (const auto& one : heat.fluxes) spec.fluxes.push_back(flux(one));
   for (const auto& one : heat.fixed)

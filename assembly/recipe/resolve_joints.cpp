@@ -29,7 +29,7 @@ SupportSpec Resolver::support(const recipe::Support& support, size_t number) {
   if (spec.name.empty()) spec.name = fmt::format("support_{}", number);
   spec.where = where(support.source, "support " + spec.name);
   names_.check(support.source, support.selection);
-  check_directions(support.source, support.selection, support.directions);
+  names_.check_directions(support.source, "directions", support.selection, support.directions);
   spec.axes = names_.axes(support.source, support.system);
   return spec;
 }
@@ -104,9 +104,7 @@ std::vector<EquationSpec::Term> Resolver::terms_of(const Source& table, const st
                      term.coefficient.value_or(1.0)});
     if (!term.selection.point.empty()) continue;
     names_.only_node(source, term.selection.node_set);
-    if (term.direction >= 3)
-      source.fail("direction", fmt::format("found \"{}\", expected x, y or z: nodes do not rotate",
-                                           kDofNames[term.direction]));
+    names_.check_directions(source, "direction", term.selection, {term.direction});
   }
   return terms;
 }

@@ -15,11 +15,11 @@ namespace {
 using Kind = LoadSpec::Kind;
 
 /// Displacements or rotations, whose amount is a length or an angle.
-void check_displacement(const LoadSpec& load) {
+void check_displacement(const RecipeNames& names, const LoadSpec& load) {
   if (load.selection.surface.empty() && load.selection.node_set.empty() &&
       load.selection.point.empty())
     load.source.fail("surface", "give surface, node_set or point");
-  check_directions(load.source, load.selection, load.directions);
+  names.check_directions(load.source, "directions", load.selection, load.directions);
   for (const int d : load.directions)
     if (d / 3 != load.directions[0] / 3)
       load.source.fail(
@@ -124,6 +124,13 @@ void Resolver::finish_temperature(LoadSpec& load) {
   if (std::ranges::none_of(materials_,
                            [](const fe::Material& one) { return !one.expansion.isZero(0.0); }))
     load.source.fail("kind", "found temperature, no material has an expansion");
+  for (const mesh::ShellBlock& block : names_.mesh.shells)
+    if (!materials_[block.region].expansion.isZero(0.0))
+      load.source.fail("kind",
+                       fmt::format("found temperature and the shells of region \"{}\", whose "
+                                   "expansion is not computed, expected a material of "
+                                   "theirs without expansion",
+                                   names_.mesh.regions[block.region]));
   if (!load.rises.empty()) {
     load.node_rises = rise_of_regions(load);
   } else if (!load.heat.empty()) {
@@ -175,7 +182,7 @@ LoadSpec Resolver::load(const recipe::Load& given, size_t) {
         load.rotating.push_back(names_.region(table, "regions", name));
       break;
     case Kind::kDisplacement:
-      check_displacement(load);
+      check_displacement(names_, load);
       load.amount = *load.value;
       break;
     case Kind::kNodal:

@@ -68,7 +68,7 @@ SparseMatrix nodal_mass(const fe::FeModel& model, const std::function<SparseMatr
   }
   throw InputError(fmt::format(
       "{}: inertia_invariants: found a mass that is not that of the cells (point masses, "
-      "imported matrices), expected one",
+      "shells, imported matrices), expected one",
       model.name));
 }
 

@@ -148,7 +148,9 @@ NodalMatrices assemble(const mesh::Mesh& mesh, const std::vector<Material>& mate
   fill_indices(pattern, form, out);
   const Scatter scatter(pattern, form, out);
   const int64_t owners = thread_count();
-  Progress progress("assemble", static_cast<double>(mesh.cell_count()), "cells");
+  int64_t cells = 0;
+  for (const mesh::CellBlock& block : mesh.cells) cells += block.nodes.rows();
+  Progress progress("assemble", static_cast<double>(cells), "cells");
   double done = 0.0;
   std::vector<ElementMatrices> chunk(kChunk);
   for (const mesh::CellBlock& block : mesh.cells) {

@@ -31,6 +31,13 @@ constexpr std::array<std::pair<const char*, Choice>, 4> kChoices = {
      {"wedge6", &IntegrationChoice::wedge6},
      {"wedge15", &IntegrationChoice::wedge15}}};
 
+constexpr std::array<std::pair<const char*, double ShellSection::*>, 5> kSection = {
+    {{"thickness", &ShellSection::thickness},
+     {"offset", &ShellSection::offset},
+     {"bending", &ShellSection::bending},
+     {"shear", &ShellSection::shear},
+     {"area_mass", &ShellSection::area_mass}}};
+
 template <typename Value, size_t N>
 std::string name_of(const Names<Value, N>& names, Value value) {
   for (const auto& [name, known] : names)
@@ -109,30 +116,53 @@ Material read_material(const H5File& file, const std::string& group) {
   return material;
 }
 
+void write_sections(H5File& file, const FeCells& cells) {
+  mesh::write_shells(file, cells.shells);
+  for (const mesh::ShellBlock& block : cells.shells) {
+    const ShellSection& section = cells.sections[block.region];
+    const std::string group = fmt::format("sections/{}", block.region);
+    for (const auto& [key, member] : kSection) file.set(group, key, section.*member);
+  }
+}
+
+std::vector<ShellSection> read_sections(const H5File& file, size_t regions) {
+  std::vector<ShellSection> sections(regions);
+  for (size_t r = 0; r < regions; ++r) {
+    const std::string group = fmt::format("sections/{}", r);
+    if (!file.has(group)) continue;
+    for (const auto& [key, member] : kSection) sections[r].*member = file.get_double(group, key);
+  }
+  return sections;
+}
+
 }  // namespace
 
 void write_cells(H5File& file, const FeCells& cells) {
-  if (cells.blocks.empty()) return;
+  if (cells.blocks.empty() && cells.shells.empty()) return;
   file.write("regions", cells.regions);
   for (size_t r = 0; r < cells.materials.size(); ++r)
     write_material(file, fmt::format("materials/{}", r), cells.materials[r]);
   mesh::write_cells(file, cells.blocks);
+  write_sections(file, cells);
   if (!cells.node_ids.empty()) file.write("node_ids", cells.node_ids);
 }
 
 FeCells read_cells(const H5File& file, const RowMatrix& nodes) {
-  if (!file.has("cells")) return {};
+  if (!file.has("cells") && !file.has("shells")) return {};
   mesh::Mesh mesh;
   mesh.nodes = nodes;
   mesh.regions = file.read_strings("regions");
   mesh.cells = mesh::read_cells(file);
+  mesh.shells = mesh::read_shells(file);
   if (file.has("node_ids")) mesh.node_ids = file.read_ints("node_ids");
   mesh.surfaces["skin"];  // required by the check; surfaces are checked separately
   mesh::check_structure(mesh, file.path().string());
   FeCells cells;
   for (size_t r = 0; r < mesh.regions.size(); ++r)
     cells.materials.push_back(read_material(file, fmt::format("materials/{}", r)));
+  cells.sections = read_sections(file, mesh.regions.size());
   cells.regions = std::move(mesh.regions);
+  cells.shells = std::move(mesh.shells);
   cells.blocks = std::move(mesh.cells);
   cells.node_ids = std::move(mesh.node_ids);
   return cells;

@@ -85,6 +85,23 @@ void read_points(const H5File& file, FeModel& model) {
   check_shape(file, "points/T_s", points.T_s, 6 * n, model.supports.size());
 }
 
+void read_rotations(const H5File& file, FeModel& model) {
+  FeRotations& rotations = model.rotations;
+  rotations.T.resize(0, model.size());
+  rotations.T_s.resize(0, model.supports.size());
+  if (!file.has("rotations")) return;
+  rotations.nodes = file.read_ints("rotations/nodes");
+  for (const int32_t node : rotations.nodes)
+    if (node < 0 || node >= model.nodes.rows())
+      refuse(file, "rotations/nodes", fmt::format("{}", node),
+             fmt::format("0 to {}", model.nodes.rows() - 1));
+  rotations.T = read_sparse(file, "rotations/T");
+  rotations.T_s = read_sparse(file, "rotations/T_s");
+  const auto n = static_cast<Eigen::Index>(rotations.nodes.size());
+  check_shape(file, "rotations/T", rotations.T, 3 * n, model.size());
+  check_shape(file, "rotations/T_s", rotations.T_s, 3 * n, model.supports.size());
+}
+
 /// Optional data of loads in addition to forces.
 void read_of_loads(const H5File& file, const std::string& group, const FeModel& model,
                    Eigen::Index size, std::map<std::string, Eigen::VectorXd>& out) {
@@ -140,6 +157,11 @@ void write_statics(H5File& file, const FeModel& model) {
     write_sparse(file, "points/T", model.points.T, false);
     write_sparse(file, "points/T_s", model.points.T_s, false);
   }
+  if (!model.rotations.nodes.empty()) {
+    file.write("rotations/nodes", model.rotations.nodes);
+    write_sparse(file, "rotations/T", model.rotations.T, false);
+    write_sparse(file, "rotations/T_s", model.rotations.T_s, false);
+  }
   for (const auto& [load, values] : model.support_loads)
     file.write("support_loads/" + load, values);
   for (const auto& [load, values] : model.prescribed) file.write("prescribed/" + load, values);
@@ -153,6 +175,7 @@ void write_statics(H5File& file, const FeModel& model) {
 void read_statics(const H5File& file, FeModel& model) {
   read_supports(file, model);
   read_points(file, model);
+  read_rotations(file, model);
   read_of_loads(file, "support_loads", model, model.supports.size(), model.support_loads);
   read_of_loads(file, "prescribed", model, model.supports.size(), model.prescribed);
   read_of_loads(file, "temperature_rise", model, model.nodes.rows(), model.temperature_rise);

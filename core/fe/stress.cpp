@@ -113,11 +113,16 @@ std::vector<RegionStress> nodal_stress(const RowMatrix& nodes, const FeCells& ce
                                        const Eigen::VectorXd& u, const Eigen::VectorXd& dT) {
   std::vector<RegionStress> out;
   for (size_t r = 0; r < cells.regions.size(); ++r) {
+    if (std::ranges::none_of(cells.blocks, [&](const CellBlock& block) {
+          return static_cast<size_t>(block.region) == r;
+        }))
+      continue;
     Sums sums{StressRows::Zero(nodes.rows(), 6), Eigen::VectorXi::Zero(nodes.rows())};
     for (const CellBlock& block : cells.blocks)
       if (static_cast<size_t>(block.region) == r)
         add_block(block, corner_stress(nodes, block, cells.materials[r], u, dT), sums);
     out.push_back(mean_of(sums));
+    out.back().name = cells.regions[r];
   }
   return out;
 }

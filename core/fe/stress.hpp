@@ -6,6 +6,7 @@
 // of its corners (cell_points.hpp); mid-side nodes get the mean of their edge's corners. Nodal
 // stress is averaged over the cells of one region only, since stress may jump between materials.
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "core/fe/fe_cells.hpp"
@@ -16,8 +17,9 @@ namespace clatter::fe {
 /// Rows xx yy zz xy yz zx [Pa] in the global frame.
 using StressRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
-/// Nodal stresses of one region.
+/// Nodal stresses of one region, or of one side of its shells.
 struct RegionStress {
+  std::string name;
   std::vector<int32_t> nodes;  // of the region, ascending
   StressRows stress;           // one row per node
   Eigen::VectorXd von_mises;   // of the averaged stress [Pa]
@@ -32,7 +34,7 @@ double von_mises(const Voigt& stress);
 StressRows point_stress(mesh::CellType type, const mesh::CellNodes& x, const Material& material,
                         const Eigen::VectorXd& u, const Eigen::VectorXd& dT);
 
-/// Nodal stresses, one entry per region. `nodes` n x 3 [m], `u` 3 n, `dT` n or empty.
+/// Nodal stresses, one entry per region with solids. `nodes` n x 3 [m], `u` 3 n, `dT` n or empty.
 std::vector<RegionStress> nodal_stress(const RowMatrix& nodes, const FeCells& cells,
                                        const Eigen::VectorXd& u, const Eigen::VectorXd& dT);
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <set>
 
 #include "core/base/error.hpp"
 #include "core/mesh/cell_faces.hpp"
@@ -172,10 +173,21 @@ BoundaryFaces boundary_faces(const Mesh& mesh) {
   return boundary;
 }
 
-Surface skin_of(const BoundaryFaces& faces) {
+Surface skin_of(const BoundaryFaces& faces, const std::vector<ShellBlock>& shells) {
   SurfaceBuilder skin;
   for (const auto& [key, face] : faces) skin.add(face.type, face.ids);
+  for (const ShellBlock& block : shells)
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
+      skin.add(block.type, row_of(block.nodes, c));
   return skin.finish();
+}
+
+Surface shell_surface(const Mesh& mesh, int32_t region) {
+  SurfaceBuilder surface;
+  for (const ShellBlock& block : mesh.shells)
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
+      if (region < 0 || block.region == region) surface.add(block.type, row_of(block.nodes, c));
+  return surface.finish();
 }
 
 SurfaceIntegrals integrate(const Mesh& mesh, const Surface& surface, const Eigen::Vector3d& about) {
@@ -199,6 +211,10 @@ double cell_volume(const Mesh& mesh, int32_t region) {
 
 int64_t count_inward(const Mesh& mesh, const Surface& skin) {
   const BoundaryFaces boundary = boundary_faces(mesh);
+  std::set<FaceKey> shells;
+  for (const ShellBlock& block : mesh.shells)
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
+      shells.insert(face_key(block.type, row_of(block.nodes, c)));
   int64_t inward = 0;
   for (const FaceBlock& block : skin.faces) {
     const Eigen::Vector2d centre = traits(block.type).corners == 3
@@ -209,7 +225,7 @@ int64_t count_inward(const Mesh& mesh, const Surface& skin) {
       const auto ids = row_of(block.nodes, f);
       const auto found = boundary.find(face_key(block.type, ids));
       if (found == boundary.end()) {
-        ++inward;
+        inward += shells.contains(face_key(block.type, ids)) ? 0 : 1;
         continue;
       }
       const PointOnFace point = evaluate(face_nodes(mesh, ids), shape);

@@ -48,8 +48,11 @@ using BoundaryFaces = std::map<FaceKey, BoundaryFace>;
 /// share its mid-side nodes: displacements would be discontinuous there.
 BoundaryFaces boundary_faces(const Mesh& mesh);
 
-/// All boundary faces as a surface, ordered by corners.
-Surface skin_of(const BoundaryFaces& faces);
+/// All boundary faces as a surface, ordered by corners, then the shells.
+Surface skin_of(const BoundaryFaces& faces, const std::vector<ShellBlock>& shells = {});
+
+/// The shells of a region, -1 for all.
+Surface shell_surface(const Mesh& mesh, int32_t region = -1);
 
 /// Integrals over curved faces, exact except for the area. What x . n dS encloses is measured from
 /// `about`, which a closed surface does not feel but for rounding.
@@ -65,7 +68,8 @@ SurfaceIntegrals integrate(const Mesh& mesh, const Surface& surface,
 /// Volume of all cells of a region, -1 for all [m3]; exact.
 double cell_volume(const Mesh& mesh, int32_t region = -1);
 
-/// Number of skin faces without a cell or with a normal into their cell; 0 in a valid mesh.
+/// Number of skin faces without a cell or with a normal into their cell, those of shells aside; 0
+/// in a valid mesh.
 int64_t count_inward(const Mesh& mesh, const Surface& skin);
 
 }  // namespace clatter::mesh

@@ -21,10 +21,13 @@ void check_range(const IndexMatrix& ids, int64_t n_nodes, const std::string& whe
   }
 }
 
-void check_cells(const Mesh& mesh, const std::string& where, std::vector<bool>& used) {
-  for (size_t b = 0; b < mesh.cells.size(); ++b) {
-    const CellBlock& block = mesh.cells[b];
-    const std::string block_name = fmt::format("{}: cells/{}", where, b);
+/// Of solids or shells. @param group of the file.
+template <class Blocks>
+void check_cells(const Mesh& mesh, const Blocks& blocks, const std::string& group,
+                 std::vector<bool>& used) {
+  for (size_t b = 0; b < blocks.size(); ++b) {
+    const auto& block = blocks[b];
+    const std::string block_name = fmt::format("{}/{}", group, b);
     if (block.region < 0 || block.region >= static_cast<int32_t>(mesh.regions.size())) {
       throw InputError(fmt::format("{}: found region {}, expected 0 to {}", block_name,
                                    block.region, static_cast<int>(mesh.regions.size()) - 1));
@@ -38,6 +41,31 @@ void check_cells(const Mesh& mesh, const std::string& where, std::vector<bool>& 
     for (Eigen::Index i = 0; i < block.nodes.size(); ++i) {
       used[block.nodes.data()[i]] = true;
     }
+  }
+}
+
+void check_shells(const Mesh& mesh, const std::string& where) {
+  std::vector<bool> solid(mesh.regions.size(), false);
+  for (const CellBlock& block : mesh.cells) solid[block.region] = true;
+  for (size_t b = 0; b < mesh.shells.size(); ++b) {
+    const ShellBlock& block = mesh.shells[b];
+    const auto fail = [&](const std::string& found, const std::string& expected) {
+      throw InputError(
+          fmt::format("{}: shells/{}: found {}, expected {}", where, b, found, expected));
+    };
+    if (solid[block.region])
+      fail(fmt::format("region \"{}\", which has solids too", mesh.regions[block.region]),
+           "regions of one kind");
+    if (traits(block.type).order != 1) fail(std::string(traits(block.type).name), "tri3 or quad4");
+    const bool own = block.thickness.size() > 0;
+    if (own && (block.thickness.rows() != block.nodes.rows() ||
+                block.thickness.cols() != block.nodes.cols() ||
+                !(block.thickness.minCoeff() > 0.0) || !block.thickness.allFinite()))
+      fail(fmt::format("{} x {} thicknesses", block.thickness.rows(), block.thickness.cols()),
+           "one for each node of each cell, above 0");
+    if (block.offset.size() > 0 &&
+        (block.offset.size() != block.nodes.rows() || !block.offset.allFinite()))
+      fail(fmt::format("{} offsets", block.offset.size()), "one for each cell");
   }
 }
 
@@ -93,6 +121,8 @@ void check_ids(const Mesh& mesh, const std::string& where) {
   check(mesh.node_ids.size(), mesh.nodes.rows(), "node_ids");
   for (size_t b = 0; b < mesh.cells.size(); ++b)
     check(mesh.cells[b].ids.size(), mesh.cells[b].nodes.rows(), fmt::format("cells/{}/ids", b));
+  for (size_t b = 0; b < mesh.shells.size(); ++b)
+    check(mesh.shells[b].ids.size(), mesh.shells[b].nodes.rows(), fmt::format("shells/{}/ids", b));
 }
 
 }  // namespace
@@ -100,7 +130,18 @@ void check_ids(const Mesh& mesh, const std::string& where) {
 int64_t Mesh::cell_count() const {
   int64_t count = 0;
   for (const CellBlock& block : cells) count += block.nodes.rows();
+  for (const ShellBlock& block : shells) count += block.nodes.rows();
   return count;
+}
+
+std::vector<int32_t> turning_nodes(const Mesh& mesh) {
+  std::vector<bool> turns(static_cast<size_t>(mesh.nodes.rows()), false);
+  for (const ShellBlock& block : mesh.shells)
+    for (const int32_t node : block.nodes.reshaped()) turns[node] = true;
+  std::vector<int32_t> nodes;
+  for (size_t node = 0; node < turns.size(); ++node)
+    if (turns[node]) nodes.push_back(static_cast<int32_t>(node));
+  return nodes;
 }
 
 const Surface& Mesh::surface(const std::string& surface_name) const {
@@ -163,7 +204,9 @@ void check_structure(const Mesh& mesh, const std::string& where) {
     }
   }
   std::vector<bool> used(static_cast<size_t>(mesh.nodes.rows()), false);
-  check_cells(mesh, where, used);
+  check_cells(mesh, mesh.cells, where + ": cells", used);
+  check_cells(mesh, mesh.shells, where + ": shells", used);
+  check_shells(mesh, where);
   const auto lone = std::find(used.begin(), used.end(), false);
   if (lone != used.end()) {
     throw InputError(fmt::format("{}: node {} belongs to no cell: it has no stiffness", where,

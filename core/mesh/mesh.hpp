@@ -39,8 +39,8 @@ struct FaceBlock {
   IndexMatrix nodes;  // faces x nodes per face, order of cell.hpp, outward
 };
 
-/// Boundary faces of the solid, each belonging to one cell, or to two in different regions; or faces
-/// that are shells.
+/// Boundary faces of the solid, each belonging to one cell, or to two in different regions; or
+/// faces that are shells.
 struct Surface {
   std::vector<FaceBlock> faces;  // each type at most once
 
@@ -76,7 +76,7 @@ struct Mesh {
   std::map<std::string, RowMatrix> fields;  // n x k values at the nodes, k = 1 or 3 (SI)
   DeckOrigin deck;                          // the deck that it was read from
 
-  int64_t cell_count() const;
+  int64_t cell_count() const;  // of solids and shells
   /// InputError listing the existing names when there is none of that name.
   const Surface& surface(const std::string& surface_name) const;
   const std::vector<int32_t>& node_set(const std::string& set_name) const;
@@ -84,6 +84,9 @@ struct Mesh {
 
 /// Nodes that the faces use, ascending.
 std::vector<int32_t> nodes_of(const Surface& surface);
+
+/// Nodes of shells, which have rotations, ascending.
+std::vector<int32_t> turning_nodes(const Mesh& mesh);
 
 /// Checks columns and node numbers (0 ... n_nodes - 1); InputError, prefixed with `where`.
 void check_surface(const Surface& surface, int64_t n_nodes, const std::string& where);

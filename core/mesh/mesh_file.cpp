@@ -28,6 +28,26 @@ void write_block(H5File& file, const CellBlock& block, const std::string& group)
   if (!block.ids.empty()) file.write(group + "/ids", block.ids);
 }
 
+ShellBlock read_shell(const H5File& file, const std::string& group, const std::string& where) {
+  ShellBlock block;
+  block.type = face_type_named(file.get_string(group, "type"), where + ": " + group);
+  block.region = static_cast<int32_t>(file.get_int(group, "region"));
+  block.nodes = file.read_index_matrix(group + "/nodes");
+  if (file.has(group + "/ids")) block.ids = file.read_ints(group + "/ids");
+  if (file.has(group + "/thickness")) block.thickness = file.read_rows(group + "/thickness");
+  if (file.has(group + "/offset")) block.offset = file.read_vector(group + "/offset");
+  return block;
+}
+
+void write_shell(H5File& file, const ShellBlock& block, const std::string& group) {
+  file.write(group + "/nodes", block.nodes);
+  file.set(group, "type", std::string(traits(block.type).name));
+  file.set(group, "region", static_cast<int64_t>(block.region));
+  if (!block.ids.empty()) file.write(group + "/ids", block.ids);
+  if (block.thickness.size() > 0) file.write(group + "/thickness", block.thickness);
+  if (block.offset.size() > 0) file.write(group + "/offset", block.offset);
+}
+
 void refuse_invalid_cells(const Mesh& mesh, const std::string& where) {
   const ValidityReport report = check_validity(mesh);
   if (report.invalid.empty()) return;
@@ -43,6 +63,7 @@ void write_mesh(H5File& file, const Mesh& mesh) {
   file.write("nodes", mesh.nodes);
   file.write("regions", mesh.regions);
   write_cells(file, mesh.cells);
+  write_shells(file, mesh.shells);
   write_surfaces(file, mesh.surfaces);
   for (const auto& [name, ids] : mesh.node_sets) file.write("node_sets/" + name, ids);
   for (const auto& [name, values] : mesh.fields) file.write("fields/" + name, values);
@@ -60,6 +81,19 @@ std::vector<CellBlock> read_cells(const H5File& file) {
   for (size_t b = 0; b < n_blocks; ++b)
     cells.push_back(read_block(file, fmt::format("cells/{}", b), file.path().string()));
   return cells;
+}
+
+void write_shells(H5File& file, const std::vector<ShellBlock>& shells) {
+  for (size_t b = 0; b < shells.size(); ++b)
+    write_shell(file, shells[b], fmt::format("shells/{}", b));
+}
+
+std::vector<ShellBlock> read_shells(const H5File& file) {
+  std::vector<ShellBlock> shells;
+  const size_t n_blocks = file.list("shells").size();
+  for (size_t b = 0; b < n_blocks; ++b)
+    shells.push_back(read_shell(file, fmt::format("shells/{}", b), file.path().string()));
+  return shells;
 }
 
 void write_surfaces(H5File& file, const std::map<std::string, Surface>& surfaces) {
@@ -92,6 +126,7 @@ Mesh read_mesh(const std::filesystem::path& path) {
   mesh.nodes = file.read_rows("nodes");
   mesh.regions = file.read_strings("regions");
   mesh.cells = read_cells(file);
+  mesh.shells = read_shells(file);
   mesh.surfaces = read_surfaces(file, mesh.nodes.rows(), where);
   for (const std::string& name : file.list("node_sets")) {
     mesh.node_sets[name] = file.read_ints("node_sets/" + name);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The mesh in a file, schema "clatter/mesh/2":
-//   nodes (n x 3) [m], regions, cells/<i>/nodes with attributes type and region,
+//   nodes (n x 3) [m], regions, cells/<i>/nodes with attributes type and region, shells/<i>
+//   likewise, also with thickness (cells x nodes) [m] and offset (cells) [m],
 //   surfaces/<name>/<face type> (f x nodes), node_sets/<name>, fields/<name> (n x k);
 //   partition/part (cells) on request; node_ids and cells/<i>/ids where an imported mesh has its
 //   own numbers; attribute name.
@@ -22,6 +23,10 @@ void write_mesh(H5File& file, const Mesh& mesh);
 void write_cells(H5File& file, const std::vector<CellBlock>& cells);
 /// InputError for unknown cell types; node numbers and regions are not checked.
 std::vector<CellBlock> read_cells(const H5File& file);
+
+/// Group `shells` of meshes and FE models.
+void write_shells(H5File& file, const std::vector<ShellBlock>& shells);
+std::vector<ShellBlock> read_shells(const H5File& file);
 
 /// Group `surfaces` of meshes and FE models: one dataset per face type.
 void write_surfaces(H5File& file, const std::map<std::string, Surface>& surfaces);

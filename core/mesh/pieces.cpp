@@ -24,13 +24,16 @@ std::vector<int32_t> roots_of(const Mesh& mesh) {
     return node;
   };
   std::vector<char> used(above.size(), 0);
-  for (const CellBlock& block : mesh.cells)
-    for (const auto& cell : block.nodes.rowwise())
+  const auto join = [&](const IndexMatrix& cells) {
+    for (const auto& cell : cells.rowwise())
       for (const int32_t node : cell) {
         used[node] = 1;
         const int32_t a = root(cell[0]), b = root(node);
         above[std::max(a, b)] = std::min(a, b);
       }
+  };
+  for (const CellBlock& block : mesh.cells) join(block.nodes);
+  for (const ShellBlock& block : mesh.shells) join(block.nodes);
   for (size_t node = 0; node < above.size(); ++node)
     above[node] = used[node] ? root(static_cast<int32_t>(node)) : -1;
   return above;

@@ -59,7 +59,7 @@ uint8_t vtk_type(FaceType type) {
 }
 
 int64_t count_drawn(const Mesh& mesh) {
-  return mesh.cells.empty() ? mesh.surface("skin").face_count() : mesh.cell_count();
+  return mesh.cell_count() == 0 ? mesh.surface("skin").face_count() : mesh.cell_count();
 }
 
 std::string cells(const Mesh& mesh, RawArrays& raw) {
@@ -72,26 +72,32 @@ std::string cells(const Mesh& mesh, RawArrays& raw) {
       offsets.push_back(static_cast<int64_t>(connectivity.size()));
       types.push_back(static_cast<uint8_t>(traits(block.type).vtk_type));
     }
-  if (mesh.cells.empty())
-    for (const FaceBlock& block : mesh.surface("skin").faces)
-      for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
-        for (Eigen::Index i = 0; i < block.nodes.cols(); ++i)
-          connectivity.push_back(block.nodes(f, i));
-        offsets.push_back(static_cast<int64_t>(connectivity.size()));
-        types.push_back(vtk_type(block.type));
-      }
+  const auto faces = [&](const auto& block) {
+    for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
+      for (Eigen::Index i = 0; i < block.nodes.cols(); ++i)
+        connectivity.push_back(block.nodes(f, i));
+      offsets.push_back(static_cast<int64_t>(connectivity.size()));
+      types.push_back(vtk_type(block.type));
+    }
+  };
+  for (const ShellBlock& block : mesh.shells) faces(block);
+  if (mesh.cell_count() == 0)
+    for (const FaceBlock& block : mesh.surface("skin").faces) faces(block);
   return raw.add("connectivity", connectivity) + raw.add("offsets", offsets) +
          raw.add("types", types);
 }
 
 std::string cell_data(const Mesh& mesh, RawArrays& raw) {
   std::vector<int32_t> ids, regions;
-  for (const CellBlock& block : mesh.cells)
+  const auto number = [&](const auto& block) {
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       regions.push_back(block.region);
       ids.push_back(block.ids.empty() ? static_cast<int32_t>(ids.size()) + 1 : block.ids[c]);
     }
-  if (mesh.cells.empty()) return "";
+  };
+  for (const CellBlock& block : mesh.cells) number(block);
+  for (const ShellBlock& block : mesh.shells) number(block);
+  if (mesh.cell_count() == 0) return "";
   return raw.add("id", ids) + raw.add("region", regions);
 }
 

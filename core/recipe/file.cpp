@@ -70,6 +70,7 @@ const Keys<File>& file_keys() {
             .always();
         key.named("system", file.systems, fe::axes_keys());
         key.named("material", file.materials, region_material_keys());
+        key.tables("shell", file.shells, shell_keys());
         key.table("matrices", file.matrix_files, matrix_files_keys())
             .excludes("material", "the matrices are the part");
         key.table("mass", file.mass, mass_keys());

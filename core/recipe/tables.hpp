@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The keys of each table of a fe.toml, and rows that several tables have. joints.cpp,
+// The keys of each table of a fe.toml, and rows that several tables have. shells.cpp, joints.cpp,
 // kept_sets.cpp, heat.cpp and loads.cpp each define some tables.
 #include <string>
 #include <vector>
@@ -19,6 +19,7 @@ const Keys<Coupling>& coupling_keys();
 const Keys<Equation>& equation_keys();
 const Keys<Spring>& spring_keys();
 const Keys<Beam>& beam_keys();
+const Keys<Shell>& shell_keys();
 const Keys<Matrix>& matrix_keys();
 const Keys<StraightEdges>& straight_edges_keys();
 const Keys<Tie>& tie_keys();

@@ -90,7 +90,7 @@ void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where, 
   }
   convert_units(deck, units);
   note_origin(deck, units);
-  deck.mesh.surfaces["skin"] = skin_of(boundary_faces(deck.mesh));
+  deck.mesh.surfaces["skin"] = skin_of(boundary_faces(deck.mesh), deck.mesh.shells);
   check_structure(deck.mesh, where);
   const ValidityReport validity = check_validity(deck.mesh);
   if (!validity.invalid.empty())

@@ -24,6 +24,12 @@ void wire(Archive& archive, Self& s) {
   archive(type, region, nodes, ids);
 }
 
+template <class Archive, SelfOf<ShellBlock> Self>
+void wire(Archive& archive, Self& s) {
+  auto& [type, region, nodes, ids, thickness, offset] = s;
+  archive(type, region, nodes, ids, thickness, offset);
+}
+
 template <class Archive, SelfOf<FaceBlock> Self>
 void wire(Archive& archive, Self& s) {
   auto& [type, nodes] = s;
@@ -38,8 +44,8 @@ void wire(Archive& archive, Self& s) {
 
 template <class Archive, SelfOf<Mesh> Self>
 void wire(Archive& archive, Self& s) {
-  auto& [name, nodes, node_ids, regions, cells, surfaces, node_sets, fields, deck] = s;
-  archive(name, nodes, node_ids, regions, cells, surfaces, node_sets, fields, deck);
+  auto& [name, nodes, node_ids, regions, cells, shells, surfaces, node_sets, fields, deck] = s;
+  archive(name, nodes, node_ids, regions, cells, shells, surfaces, node_sets, fields, deck);
 }
 
 template <class Archive, SelfOf<WorstCell> Self>

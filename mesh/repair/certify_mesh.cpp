@@ -16,10 +16,19 @@ double refused_above(const char* name) { return judgement_of<MeshCertificate>(na
 }  // namespace
 
 MeshCertificate certify_mesh(const Mesh& mesh, const QualityReport& quality) {
-  if (mesh.cell_count() == 0) return {};  // points and springs alone
-  const Surface& skin = mesh.surface("skin");
+  MeshCertificate out;
+  if (mesh.cell_count() == 0) return out;  // points and springs alone
+  const auto nodes = static_cast<double>(mesh.nodes.rows());
+  out.cells = static_cast<double>(mesh.cell_count());
+  out.nodes = nodes;
+  out.dofs = 3.0 * (nodes + static_cast<double>(turning_nodes(mesh).size()));
   // About a point of the part: far from the origin x . n dS is all rounding (hard case F2).
-  const SurfaceIntegrals closed = integrate(mesh, skin, mesh.nodes.row(0).transpose());
+  const Eigen::Vector3d about = mesh.nodes.row(0).transpose();
+  out.skin_area_m2 = integrate(mesh, mesh.surface("skin"), about).area;
+  if (!mesh.shells.empty()) out.shell_area_m2 = integrate(mesh, shell_surface(mesh)).area;
+  if (mesh.cells.empty()) return out;
+  const Surface& skin = mesh.shells.empty() ? mesh.surface("skin") : skin_of(boundary_faces(mesh));
+  const SurfaceIntegrals closed = integrate(mesh, skin, about);
   const double volume = cell_volume(mesh);
   const double against_surface = std::abs(closed.enclosed / volume - 1.0);
   const double open = closed.normal.norm() / closed.area;
@@ -31,19 +40,15 @@ MeshCertificate certify_mesh(const Mesh& mesh, const QualityReport& quality) {
         "= {:.3g}, {} inward normals",
         against_surface, open, inward));
   }
-  return {.cells = static_cast<double>(mesh.cell_count()),
-          .nodes = static_cast<double>(mesh.nodes.rows()),
-          .dofs = 3.0 * static_cast<double>(mesh.nodes.rows()),
-          .volume_m3 = volume,
-          .volume_against_surface_integral = against_surface,
-          .closed_surface_residue = open,
-          .inward_normals = inward,
-          .skin_area_m2 = closed.area,
-          .invalid_cells = 0.0,
-          .min_scaled_jacobian = quality.scaled_jacobian.worst,
-          .min_dihedral_deg = quality.min_dihedral_deg.worst,
-          .max_dihedral_deg = quality.max_dihedral_deg.worst,
-          .min_radius_ratio = quality.radius_ratio.worst};
+  out.volume_m3 = volume;
+  out.volume_against_surface_integral = against_surface;
+  out.closed_surface_residue = open;
+  out.inward_normals = inward;
+  out.min_scaled_jacobian = quality.scaled_jacobian.worst;
+  out.min_dihedral_deg = quality.min_dihedral_deg.worst;
+  out.max_dihedral_deg = quality.max_dihedral_deg.worst;
+  out.min_radius_ratio = quality.radius_ratio.worst;
+  return out;
 }
 
 }  // namespace clatter::mesh

@@ -8,7 +8,7 @@ const std::vector<CertificateField<MeshCertificate>>& MeshCertificate::fields() 
   static const std::vector<CertificateField<C>> list = {
       {"cells", &C::cells, "", "number of cells"},
       {"nodes", &C::nodes, "", "number of nodes"},
-      {"dofs", &C::dofs, "", "three per node"},
+      {"dofs", &C::dofs, "", "three per node, six per node of shells"},
       {"predicted_cells", &C::predicted_cells, "",
        "number of cells predicted from volume and sizes before meshing"},
       {"volume_m3", &C::volume_m3, "m3", "volume of the cells"},
@@ -21,6 +21,7 @@ const std::vector<CertificateField<MeshCertificate>>& MeshCertificate::fields() 
       {"inward_normals", &C::inward_normals, "", "faces of the skin that point in",
        good_up_to(0.0, "the skin is turned inside out there", 0.0)},
       {"skin_area_m2", &C::skin_area_m2, "m2", "area of the skin"},
+      {"shell_area_m2", &C::shell_area_m2, "m2", "area of the shells, which belong to it"},
       {"occ_volume_m3", &C::occ_volume_m3, "m3", "OpenCASCADE's volume of the geometry"},
       {"cad_volume_m3", &C::cad_volume_m3, "m3",
        "the volume taken as the CAD's: that, or the one of a finer skin"},

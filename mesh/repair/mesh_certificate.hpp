@@ -17,6 +17,7 @@ struct MeshCertificate {
   double closed_surface_residue = 0.0, inward_normals = 0.0, skin_area_m2 = 0.0;
   double invalid_cells = 0.0, min_scaled_jacobian = 0.0;
   double min_dihedral_deg = 0.0, max_dihedral_deg = 0.0, min_radius_ratio = 0.0;
+  std::optional<double> shell_area_m2{};
   // By note_poor_cells().
   std::optional<double> poor_cells{}, poor_cells_below_floor{}, poor_cells_volume_share{};
   std::optional<double> poor_cells_frequency_effect{}, poor_cells_most_effect{};

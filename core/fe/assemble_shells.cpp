@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fe/assemble_shells.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/error.hpp"
+#include "core/base/progress.hpp"
+#include "core/base/threads.hpp"
+#include "core/fe/shell_directors.hpp"
+
+namespace clatter::fe {
+namespace {
+
+constexpr Eigen::Index kChunk = 512;  // cells whose matrices are held
+
+using Entries = std::vector<Eigen::Triplet<double, int32_t>>;
+
+/// The rows of x y z rx ry rz of each node of a cell.
+std::vector<int32_t> rows_of(const mesh::ShellBlock& block, Eigen::Index cell,
+                             const ShellIds& ids) {
+  std::vector<int32_t> rows;
+  for (const int32_t node : block.nodes.row(cell)) {
+    for (int d = 0; d < 3; ++d) rows.push_back(3 * node + d);
+    for (int d = 0; d < 3; ++d) rows.push_back(ids.rotation_of[node] + d);
+  }
+  return rows;
+}
+
+void add_lower(const ShellMatrix& values, const std::vector<int32_t>& rows, Entries& entries) {
+  for (Eigen::Index j = 0; j < values.cols(); ++j)
+    for (Eigen::Index i = 0; i < values.rows(); ++i)
+      if (rows[i] >= rows[j] && values(i, j) != 0.0)
+        entries.emplace_back(rows[i], rows[j], values(i, j));
+}
+
+bool in_one_body(const std::vector<int32_t>& rigid_of_node, const mesh::ShellBlock& block,
+                 Eigen::Index cell) {
+  if (rigid_of_node.empty()) return false;
+  const int32_t body = rigid_of_node[block.nodes(cell, 0)];
+  return body >= 0 && std::ranges::all_of(block.nodes.row(cell), [&](int32_t node) {
+           return rigid_of_node[node] == body;
+         });
+}
+
+[[noreturn]] void refuse(const mesh::Mesh& mesh, const mesh::ShellBlock& block, Eigen::Index cell) {
+  const Eigen::RowVector3d at = mesh.nodes.row(block.nodes(cell, 0));
+  throw InputError(fmt::format(
+      "mesh '{}': region {}: shell {} at ({:.6g}, {:.6g}, {:.6g}) m: found it folded, concave or "
+      "without area, expected a convex {}",
+      mesh.name, mesh.regions[block.region],
+      block.ids.empty() ? static_cast<int32_t>(cell) + 1 : block.ids[cell], at(0), at(1), at(2),
+      block.type == mesh::FaceType::kTri3 ? "triangle" : "quadrilateral"));
+}
+
+SparseMatrix from_entries(int64_t size, const Entries& entries) {
+  SparseMatrix matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace
+
+ShellCell shell_cell(const mesh::Mesh& mesh, const mesh::ShellBlock& block, Eigen::Index cell,
+                     const RowMatrix& directors, const ShellSection& section,
+                     const Material& material) {
+  const Eigen::Index n = block.nodes.cols();
+  ShellCell out;
+  out.type = block.type;
+  out.x.resize(n, 3);
+  out.directors.resize(n, 3);
+  // From the first node: far from the origin differences of positions would lose digits.
+  for (Eigen::Index a = 0; a < n; ++a) {
+    out.x.row(a) = mesh.nodes.row(block.nodes(cell, a)) - mesh.nodes.row(block.nodes(cell, 0));
+    out.directors.row(a) = directors.row(cell).segment<3>(3 * a);
+  }
+  out.thickness = section.thickness;
+  if (block.thickness.size() > 0) {
+    const Eigen::VectorXd own = block.thickness.row(cell).transpose();
+    out.thickness = own.mean();
+    if ((own.array() != out.thickness).any()) out.ratio = own / out.thickness;
+  }
+  out.stiffness = stiffness_of(section, material, out.thickness);
+  out.offset = block.offset.size() > 0 ? block.offset(cell) : section.offset;
+  return out;
+}
+
+NodalMatrices assemble_shells(const mesh::Mesh& mesh, const std::vector<Material>& materials,
+                              const std::vector<ShellSection>& sections, const ShellIds& ids,
+                              MassForm form, const std::vector<int32_t>& rigid_of_node) {
+  const std::vector<RowMatrix> directors = shell_directors(mesh.nodes, mesh.shells);
+  int64_t cells = 0;
+  for (const mesh::ShellBlock& block : mesh.shells) cells += block.nodes.rows();
+  Progress progress("assemble shells", static_cast<double>(cells), "cells");
+  double done = 0.0;
+  Entries K, M;
+  std::vector<ShellMatrices> chunk(kChunk);
+  std::array<char, kChunk> valid{};
+  for (size_t b = 0; b < mesh.shells.size(); ++b) {
+    const mesh::ShellBlock& block = mesh.shells[b];
+    for (Eigen::Index first = 0; first < block.nodes.rows(); first += kChunk) {
+      const Eigen::Index count = std::min(kChunk, block.nodes.rows() - first);
+      parallel_pieces(count, [&](int64_t begin, int64_t end) {
+        for (int64_t c = begin; c < end; ++c)
+          valid[c] = compute_shell(shell_cell(mesh, block, first + c, directors[b],
+                                              sections[block.region], materials[block.region]),
+                                   form, chunk[c])
+                         ? 1
+                         : 0;
+      });
+      for (Eigen::Index c = 0; c < count; ++c) {
+        if (valid[c] == 0) refuse(mesh, block, first + c);
+        const std::vector<int32_t> rows = rows_of(block, first + c, ids);
+        if (!in_one_body(rigid_of_node, block, first + c)) add_lower(chunk[c].stiffness, rows, K);
+        add_lower(chunk[c].mass, rows, M);
+      }
+      progress.update(done += static_cast<double>(count));
+    }
+  }
+  return {from_entries(ids.count, M), from_entries(ids.count, K)};
+}
+
+}  // namespace clatter::fe

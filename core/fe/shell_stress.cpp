@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fe/shell_stress.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "core/fe/assemble_shells.hpp"
+#include "core/fe/shell_directors.hpp"
+
+namespace clatter::fe {
+namespace {
+
+constexpr double kSameDirector = 1e-9;  // squared distance of unit vectors
+
+/// The means at one node over the cells with one director.
+struct Mean {
+  Eigen::Vector3d director;
+  Voigt outer = Voigt::Zero(), inner = Voigt::Zero();
+  int cells = 0;
+};
+
+/// The stress at the distance `z` from the mid-surface, in the global frame.
+Voigt stress_at(const ShellStrains& strains, const Material& material, double z) {
+  const Eigen::Vector3d e = strains.membrane + z * strains.curvature;
+  const double nu = material.poisson, factor = material.youngs / (1.0 - nu * nu);
+  Eigen::Matrix3d local = Eigen::Matrix3d::Zero();
+  local(0, 0) = factor * (e(0) + nu * e(1));
+  local(1, 1) = factor * (e(1) + nu * e(0));
+  local(0, 1) = local(1, 0) = material.mu() * e(2);
+  const Eigen::Matrix3d s = strains.axes * local * strains.axes.transpose();
+  Voigt out;
+  out << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(2, 0);
+  return out;
+}
+
+using Corners = std::array<std::pair<Voigt, Voigt>, 4>;  // outer, inner
+
+Corners corner_stress(const ShellCell& cell, const Material& material, const Eigen::VectorXd& u) {
+  const auto both = [&](const Eigen::Vector2d& at) {
+    const ShellStrains strains = shell_strains(cell, u, at);
+    const double z = 0.5 * cell.thickness * strains.ratio;
+    return std::pair(stress_at(strains, material, z), stress_at(strains, material, -z));
+  };
+  Corners out;
+  if (cell.type == mesh::FaceType::kTri3) {
+    out.fill(both(Eigen::Vector2d::Constant(1.0 / 3.0)));
+    return out;
+  }
+  constexpr std::array<std::array<double, 2>, 4> kCorners = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  const double point = 1.0 / std::sqrt(3.0);
+  Corners at_points;
+  for (size_t q = 0; q < 4; ++q)
+    at_points[q] = both({point * kCorners[q][0], point * kCorners[q][1]});
+  for (size_t c = 0; c < 4; ++c) {
+    out[c] = {Voigt::Zero(), Voigt::Zero()};
+    for (size_t q = 0; q < 4; ++q) {
+      const double share = 0.25 * (1.0 + kCorners[c][0] * kCorners[q][0] / point) *
+                           (1.0 + kCorners[c][1] * kCorners[q][1] / point);
+      out[c].first += share * at_points[q].first;
+      out[c].second += share * at_points[q].second;
+    }
+  }
+  return out;
+}
+
+void add(std::vector<Mean>& means, const Eigen::Vector3d& director,
+         const std::pair<Voigt, Voigt>& stress) {
+  auto found = std::ranges::find_if(means, [&](const Mean& mean) {
+    return (mean.director - director).squaredNorm() < kSameDirector;
+  });
+  if (found == means.end()) found = means.insert(means.end(), Mean{director});
+  found->outer += stress.first;
+  found->inner += stress.second;
+  ++found->cells;
+}
+
+/// The largest mean of each node.
+RegionStress largest(const std::map<int32_t, std::vector<Mean>>& nodes, const std::string& name,
+                     Voigt Mean::*side) {
+  RegionStress out;
+  out.name = name;
+  out.stress.resize(static_cast<Eigen::Index>(nodes.size()), 6);
+  out.von_mises.resize(out.stress.rows());
+  for (const auto& [node, means] : nodes) {
+    const auto row = static_cast<Eigen::Index>(out.nodes.size());
+    out.nodes.push_back(node);
+    out.von_mises(row) = -1.0;
+    for (const Mean& mean : means) {
+      const Voigt stress = mean.*side / mean.cells;
+      if (const double size = von_mises(stress); size > out.von_mises(row)) {
+        out.stress.row(row) = stress.transpose();
+        out.von_mises(row) = size;
+      }
+    }
+  }
+  return out;
+}
+
+/// x y z rx ry rz of the nodes of a cell.
+Eigen::VectorXd moved(const mesh::ShellBlock& block, Eigen::Index cell, const Eigen::VectorXd& u,
+                      const std::vector<int32_t>& turning, const Eigen::VectorXd& theta) {
+  Eigen::VectorXd out(6 * block.nodes.cols());
+  for (Eigen::Index a = 0; a < block.nodes.cols(); ++a) {
+    const int32_t node = block.nodes(cell, a);
+    const auto k = std::ranges::lower_bound(turning, node) - turning.begin();
+    out.segment<3>(6 * a) = u.segment<3>(3 * node);
+    out.segment<3>(6 * a + 3) = theta.segment<3>(3 * k);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<RegionStress> shell_stress(const RowMatrix& nodes, const FeCells& cells,
+                                       const Eigen::VectorXd& u,
+                                       const std::vector<int32_t>& turning,
+                                       const Eigen::VectorXd& theta) {
+  mesh::Mesh mesh;
+  mesh.nodes = nodes;
+  const std::vector<RowMatrix> directors = shell_directors(nodes, cells.shells);
+  std::map<int32_t, std::map<int32_t, std::vector<Mean>>> regions;
+  for (size_t b = 0; b < cells.shells.size(); ++b) {
+    const mesh::ShellBlock& block = cells.shells[b];
+    const Material& material = cells.materials[block.region];
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
+      const ShellCell cell =
+          shell_cell(mesh, block, c, directors[b], cells.sections[block.region], material);
+      const Corners corners = corner_stress(cell, material, moved(block, c, u, turning, theta));
+      for (Eigen::Index a = 0; a < block.nodes.cols(); ++a)
+        add(regions[block.region][block.nodes(c, a)], cell.directors.row(a).transpose(),
+            corners[a]);
+    }
+  }
+  std::vector<RegionStress> out;
+  for (const auto& [region, means] : regions) {
+    out.push_back(largest(means, cells.regions[region] + " (outer)", &Mean::outer));
+    out.push_back(largest(means, cells.regions[region] + " (inner)", &Mean::inner));
+  }
+  return out;
+}
+
+}  // namespace clatter::fe

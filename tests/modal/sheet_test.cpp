@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shells in a model: what is held, joined and loaded turns too.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/base/artefact.hpp"
+#include "modal/statics.hpp"
+#include "sheet.hpp"
+#include "small_solver.hpp"
+#include "tests/refusal.hpp"
+#include "tests/scratch.hpp"
+
+namespace clatter::modal {
+namespace {
+
+using assembly::testing::build_all;
+using assembly::testing::kSheetSteel;
+using assembly::testing::sheet;
+
+constexpr double kL = 0.4, kB = 0.05, kT = 0.002, kE = 2e11;
+constexpr double kI = kB * kT * kT * kT / 12.0;
+const std::string kClamp =
+    "[[support]]\nname = \"wall\"\nnode_set = \"x0\"\n"
+    "directions = [\"x\", \"y\", \"z\", \"rx\", \"ry\", \"rz\"]\n";
+/// The side x1 follows a point.
+const std::string kRigidEnd =
+    "[[point]]\nname = \"end\"\nat = [0.4, 0.025, 0.0]\n"
+    "[[coupling]]\nkind = \"node\"\npoint = \"end\"\nrigid = true\nnode_set = \"x1\"\n"
+    "directions = [\"x\", \"y\", \"z\", \"rx\", \"ry\", \"rz\"]\n";
+
+fe::FeModel strip(const std::string& toml) {
+  return build_all(sheet(kL, kB, 16, 2), kSheetSteel + kClamp + toml).model;
+}
+
+StaticCase solved(const fe::FeModel& model) { return solve_static(model, {}).cases.at(0); }
+
+TEST(Sheet, AClampedStripBendsLikeABeamAndCarriesTheMomentAtItsFaces) {
+  const fe::FeModel model = strip(kRigidEnd +
+                                  "[[load]]\nname = \"tip\"\nkind = \"force\"\nset = \"end\"\n"
+                                  "force = [0.0, 0.0, 10.0]\n");
+  const StaticCase tip = solved(model);
+  const double G = kE / 2.0;
+  const double want = 10.0 * kL * kL * kL / (3.0 * kE * kI) + 10.0 * kL / (5.0 / 6.0 * G * kB * kT);
+  EXPECT_NEAR(tip.points(2), want, 1e-3 * want);
+  EXPECT_NEAR(tip.points(4), -10.0 * kL * kL / (2.0 * kE * kI), 1e-3 * want / kL);
+  ASSERT_EQ(tip.rotation.size(), 3 * model.nodes.rows());
+  ASSERT_EQ(tip.stress.size(), 2u);
+  EXPECT_EQ(tip.stress[0].name, "sheet (outer)");
+  // Upward at the tip: the outward side, up, is pressed at the wall.
+  const double bent = 10.0 * kL * kT / 2.0 / kI;
+  EXPECT_NEAR(tip.stress[0].stress(0, 0), -bent, 0.01 * bent);
+  EXPECT_NEAR(tip.stress[1].stress(0, 0), bent, 0.01 * bent);
+  EXPECT_NEAR(tip.support_sums(0, 4), 10.0 * kL, 1e-6);
+}
+
+TEST(Sheet, APointOnANodeTurnsWithIt) {
+  const StaticCase tip = solved(strip(
+      "[[point]]\nname = \"tip\"\nnode_set = \"tip\"\n"
+      "[[load]]\nname = \"twist\"\nkind = \"force\"\nset = \"tip\"\nmoment = [0.0, 1.0, 0.0]\n"));
+  const double turn = kL / (kE * kI), sag = -kL * kL / (2.0 * kE * kI);
+  EXPECT_NEAR(tip.points(4), turn, 0.05 * turn);  // the moment spreads from one node
+  EXPECT_NEAR(tip.points(2), sag, 0.02 * -sag);
+  EXPECT_NEAR(tip.support_sums(0, 4), -1.0, 1e-8);
+}
+
+TEST(Sheet, WeighsAsAPlateAndItsPressureAndWeightHaveTheirResultants) {
+  const fe::FeModel free = build_all(sheet(kL, kB, 4, 2), kSheetSteel).model;
+  const double m = 8000.0 * kL * kB * kT;
+  EXPECT_NEAR(free.mass.mass, m, 1e-12 * m);
+  EXPECT_NEAR(free.mass.centre(0), 0.5 * kL, 1e-12);
+  EXPECT_NEAR(free.mass.inertia(0, 0), m * (kB * kB + kT * kT) / 12.0, 1e-12 * m);
+  EXPECT_NEAR(free.mass.inertia(2, 2), m * (kB * kB + kL * kL) / 12.0, 1e-12 * m);
+  const fe::FeModel loaded =
+      build_all(
+          sheet(kL, kB, 4, 2),
+          kSheetSteel +
+              "[[load]]\nname = \"weight\"\nkind = \"acceleration\"\ndirection = [0.0, 0.0, -1.0]\n"
+              "[[load]]\nname = \"gas\"\nkind = \"pressure\"\nsurface = \"skin\"\n"
+              "[[load]]\nname = \"turns\"\nkind = \"centrifugal\"\naxis_point = [0.0, 0.025, 0.0]\n"
+              "axis = [0.0, 0.0, 1.0]\n")
+          .model;
+  const auto resultant = [&](const std::string& load) -> Eigen::VectorXd {
+    return loaded.rigid.transpose() * loaded.loads.at(load);
+  };
+  EXPECT_NEAR(resultant("weight")(2), -m, 1e-12);
+  EXPECT_NEAR(resultant("gas")(2), -kL * kB, 1e-12);
+  EXPECT_NEAR(resultant("turns")(0), m * 0.5 * kL, 1e-12);
+  EXPECT_NEAR(resultant("turns")(1), 0.0, 1e-12);
+}
+
+TEST(Sheet, OffsetMovesTheMassAndBendsByThePullOfItsNodes) {
+  const std::string offset = kSheetSteel + "offset = 0.003\n";
+  EXPECT_NEAR(build_all(sheet(kL, kB, 4, 2), offset).model.mass.centre(2), 0.003, 1e-12);
+  const fe::FeModel model =
+      build_all(sheet(kL, kB, 16, 2),
+                offset + kClamp + kRigidEnd +
+                    "[[load]]\nname = \"pull\"\nkind = \"force\"\nset = \"end\"\n"
+                    "force = [1000.0, 0.0, 0.0]\n")
+          .model;
+  const StaticCase pull = solved(model);
+  const double moment = -1000.0 * 0.003;  // about the middle of the sheet
+  EXPECT_NEAR(pull.points(4), moment * kL / (kE * kI), 1e-6 * kL / (kE * kI));
+  EXPECT_NEAR(pull.points(0),
+              1000.0 * kL / (kE * kB * kT) + 0.003 * 0.003 * 1000.0 * kL / (kE * kI), 1e-9);
+}
+
+TEST(Sheet, ComesBackFromItsFile) {
+  const auto path = test::scratch_path("sheet.fe.h5");
+  const fe::FeModel model = strip("");
+  H5File file = H5File::create(path);
+  write_provenance(file, {fe::kFeSchema, "", {}});
+  fe::write_fe_model(file, model);
+  file.commit();
+  const fe::FeModel back = fe::read_fe_model(path);
+  std::filesystem::remove(path);
+  EXPECT_EQ(back.rotations.nodes, model.rotations.nodes);
+  EXPECT_EQ(back.rotations.T.nonZeros(), model.rotations.T.nonZeros());
+  ASSERT_EQ(back.cells.shells.size(), 1u);
+  EXPECT_EQ(back.cells.shells[0].nodes, model.cells.shells[0].nodes);
+  EXPECT_EQ(back.cells.sections[0].thickness, kT);
+}
+
+std::string refusal(const std::string& toml) {
+  return test::refusal_of([&] { build_all(sheet(kL, kB, 4, 2), toml); });
+}
+
+TEST(Sheet, RefusesWhatItIsNot) {
+  const std::string steel = kSheetSteel.substr(0, kSheetSteel.find("[[shell]]"));
+  test::expect_parts(refusal(steel),
+                     {"shell: found no thickness of region \"sheet\"", "[[shell]]"});
+  test::expect_parts(refusal(kSheetSteel + "[[shell]]\nregions = [\"sheet\"]\nthickness = 1.0\n"),
+                     {"regions: found \"sheet\" in two [[shell]]"});
+  test::expect_parts(refusal(kSheetSteel + "[[shell]]\nregions = [\"lid\"]\nthickness = 1.0\n"),
+                     {"regions: found \"lid\", expected one of: sheet"});
+  test::expect_parts(
+      refusal("[material.steel]\nregions = [\"sheet\"]\nE = 2e11\nnu = 0.0\nrho = 8000.0\n"
+              "expansion = 1e-5\n[[shell]]\nregions = [\"sheet\"]\nthickness = 0.002\n"
+              "[[load]]\nname = \"warm\"\nkind = \"temperature\"\n"),
+      {"found temperature and the shells of region \"sheet\"", "without expansion"});
+}
+
+}  // namespace
+}  // namespace clatter::modal
