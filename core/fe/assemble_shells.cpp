@@ -14,13 +14,13 @@
 namespace clatter::fe {
 namespace {
 
-constexpr Eigen::Index kChunk = 512;  // cells whose matrices are held
+constexpr Eigen::Index kShellsTogether = 512;  // cells whose matrices are held
 
 using Entries = std::vector<Eigen::Triplet<double, int32_t>>;
 
 /// The rows of x y z rx ry rz of each node of a cell.
-std::vector<int32_t> rows_of(const mesh::ShellBlock& block, Eigen::Index cell,
-                             const ShellIds& ids) {
+std::vector<int32_t> shell_rows(const mesh::ShellBlock& block, Eigen::Index cell,
+                                const ShellIds& ids) {
   std::vector<int32_t> rows;
   for (const int32_t node : block.nodes.row(cell)) {
     for (int d = 0; d < 3; ++d) rows.push_back(3 * node + d);
@@ -36,8 +36,8 @@ void add_lower(const ShellMatrix& values, const std::vector<int32_t>& rows, Entr
         entries.emplace_back(rows[i], rows[j], values(i, j));
 }
 
-bool in_one_body(const std::vector<int32_t>& rigid_of_node, const mesh::ShellBlock& block,
-                 Eigen::Index cell) {
+bool moves_rigidly(const std::vector<int32_t>& rigid_of_node, const mesh::ShellBlock& block,
+                   Eigen::Index cell) {
   if (rigid_of_node.empty()) return false;
   const int32_t body = rigid_of_node[block.nodes(cell, 0)];
   return body >= 0 && std::ranges::all_of(block.nodes.row(cell), [&](int32_t node) {
@@ -45,7 +45,8 @@ bool in_one_body(const std::vector<int32_t>& rigid_of_node, const mesh::ShellBlo
          });
 }
 
-[[noreturn]] void refuse(const mesh::Mesh& mesh, const mesh::ShellBlock& block, Eigen::Index cell) {
+[[noreturn]] void refuse_shell(const mesh::Mesh& mesh, const mesh::ShellBlock& block,
+                               Eigen::Index cell) {
   const Eigen::RowVector3d at = mesh.nodes.row(block.nodes(cell, 0));
   throw InputError(fmt::format(
       "mesh '{}': region {}: shell {} at ({:.6g}, {:.6g}, {:.6g}) m: found it folded, concave or "
@@ -96,12 +97,12 @@ NodalMatrices assemble_shells(const mesh::Mesh& mesh, const std::vector<Material
   Progress progress("assemble shells", static_cast<double>(cells), "cells");
   double done = 0.0;
   Entries K, M;
-  std::vector<ShellMatrices> chunk(kChunk);
-  std::array<char, kChunk> valid{};
+  std::vector<ShellMatrices> chunk(kShellsTogether);
+  std::array<char, kShellsTogether> valid{};
   for (size_t b = 0; b < mesh.shells.size(); ++b) {
     const mesh::ShellBlock& block = mesh.shells[b];
-    for (Eigen::Index first = 0; first < block.nodes.rows(); first += kChunk) {
-      const Eigen::Index count = std::min(kChunk, block.nodes.rows() - first);
+    for (Eigen::Index first = 0; first < block.nodes.rows(); first += kShellsTogether) {
+      const Eigen::Index count = std::min(kShellsTogether, block.nodes.rows() - first);
       parallel_pieces(count, [&](int64_t begin, int64_t end) {
         for (int64_t c = begin; c < end; ++c)
           valid[c] = compute_shell(shell_cell(mesh, block, first + c, directors[b],
@@ -111,9 +112,9 @@ NodalMatrices assemble_shells(const mesh::Mesh& mesh, const std::vector<Material
                          : 0;
       });
       for (Eigen::Index c = 0; c < count; ++c) {
-        if (valid[c] == 0) refuse(mesh, block, first + c);
-        const std::vector<int32_t> rows = rows_of(block, first + c, ids);
-        if (!in_one_body(rigid_of_node, block, first + c)) add_lower(chunk[c].stiffness, rows, K);
+        if (valid[c] == 0) refuse_shell(mesh, block, first + c);
+        const std::vector<int32_t> rows = shell_rows(block, first + c, ids);
+        if (!moves_rigidly(rigid_of_node, block, first + c)) add_lower(chunk[c].stiffness, rows, K);
         add_lower(chunk[c].mass, rows, M);
       }
       progress.update(done += static_cast<double>(count));
