@@ -2,7 +2,7 @@
 #pragma once
 // Stiffness and mass of a cell of a shell, six DoFs a node, by one kinematics for triangles and
 // quadrilaterals:
-//   X = sum h_i (x_i + z t_i/2 V_i),   u = sum h_i (u_i + z t_i/2 theta_i x V_i),   -1 <= z <= 1
+//   X = sum h_i (x_i + z V_i),   u = sum h_i (u_i + z theta_i x V_i),   -t/2 <= z <= t/2
 // V_i: director of node i in this cell (shell_directors.hpp). A rigid motion has no strain, on a
 // warped cell too.
 //
@@ -29,8 +29,9 @@ struct ShellCell {
   ShellStiffness stiffness;                        // at `thickness`
   double thickness = 0.0;                          // [m]
   Eigen::VectorXd ratio;                           // of the thickness at each node to it; empty: 1
-  double offset = 0.0;                             // from the nodes to the mid-surface [m]
-  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // of direction 1, projected; 0: the first side
+  double offset = 0.0;                             // along V_i to the mid-surface [m]
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // of direction 1, projected; the first side
+                                                   // where this is 0 or along the normal
 };
 
 /// Rows and columns: x y z rx ry rz of each node, in the global axes.
@@ -39,7 +40,12 @@ struct ShellMatrices {
   ShellMatrix mass;       // 6n x 6n [kg, kg m, kg m2]
 };
 
-/// @return false where the cell is no shell: concave, folded to a triangle or without area.
+/// The mid-surface has the nodes x_i + offset V_i, which move as u_i + theta_i x (offset V_i).
+/// Where the sheet is `ratio` as thick, A, S and the mass of the material have this factor, B its
+/// square, D and the rotary inertia its cube. The mass is consistent, with the rotary inertia of
+/// theta x V: none about V. kHrz: it has 6 x 6 blocks at the nodes alone.
+/// @return false where the cell is no shell: concave, folded (to a triangle, or a director more
+/// than 60 degrees off the normal), without area, or not finite.
 bool compute_shell(const ShellCell& cell, MassForm form, ShellMatrices& out);
 
 /// Generalised strains at a point of the cell, in its axes (columns: 1, 2, normal).

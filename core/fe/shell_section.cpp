@@ -17,6 +17,7 @@ ShellStiffness stiffness_of(const ShellSection& section, const Material& materia
   out.S = section.shear * G * thickness * Eigen::Matrix2d::Identity();
   out.drilling = kDrilling * G * thickness;
   out.mass = material.density * thickness + section.area_mass;
+  out.area_mass = section.area_mass;
   out.rotary = material.density * inertia;
   return out;
 }

@@ -25,6 +25,7 @@ struct ShellStiffness {
   Eigen::Matrix2d S = Eigen::Matrix2d::Zero();  // of 13, 23 [N/m]
   double drilling = 0.0;                        // [N/m]
   double mass = 0.0;                            // [kg/m2]
+  double area_mass = 0.0;                       // of it, what the thickness does not scale
   double rotary = 0.0;                          // [kg]: rho t^3 / 12 and the like
 };
 

@@ -180,6 +180,19 @@ FaceRule make_conical_triangle_rule(int n) {
   return rule;
 }
 
+/// n x n points.
+FaceRule make_quad_rule(int n) {
+  const LineRule line = gauss_legendre(n);
+  FaceRule rule;
+  rule.points.resize(n * n, 2);
+  rule.weights.resize(n * n);
+  for (Eigen::Index q = 0; q < n * n; ++q) {
+    rule.points.row(q) << line.points(q / n), line.points(q % n);
+    rule.weights(q) = line.weights(q / n) * line.weights(q % n);
+  }
+  return rule;
+}
+
 }  // namespace
 
 const CellRule& tet_rule_1() {
@@ -246,23 +259,23 @@ const CellRule& fine_rule(CellType type) {
   }
 }
 
+const FaceRule& quad_rule_4() {
+  static const FaceRule rule = make_quad_rule(2);
+  return rule;
+}
+
 const FaceRule& quad_rule_16() {
-  static const FaceRule rule = [] {
-    const LineRule line = gauss_legendre(4);
-    FaceRule out;
-    out.points.resize(16, 2);
-    out.weights.resize(16);
-    for (Eigen::Index q = 0; q < 16; ++q) {
-      out.points.row(q) << line.points(q / 4), line.points(q % 4);
-      out.weights(q) = line.weights(q / 4) * line.weights(q % 4);
-    }
-    return out;
-  }();
+  static const FaceRule rule = make_quad_rule(4);
   return rule;
 }
 
 const FaceRule& face_rule(FaceType type) {
   return traits(type).corners == 3 ? triangle_rule_16() : quad_rule_16();
+}
+
+const FaceRule& triangle_rule_6() {
+  static const FaceRule rule = make_triangle_rule(6);
+  return rule;
 }
 
 const FaceRule& triangle_rule_16() {

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fe/shell.hpp"
+
+#include <Eigen/Cholesky>
+
+#include "core/fe/shell_kinematics.hpp"
+
+namespace clatter::fe {
+namespace {
+
+using SectionMatrix = Eigen::Matrix<double, kShellStrains, kShellStrains>;
+using InnerByNodes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kShellInner, 24>;
+constexpr int kMaxRows = 6 * kShellStrains;  // of all points
+
+template <class Body>
+auto with_theory(const MidSurface& mid, const Body& body) {
+  if (mid.type == mesh::FaceType::kTri3) return body(TriangleShell(mid));
+  return body(QuadShell(mid));
+}
+
+double ratio_at(const ShellCell& cell, const ShellWeights& h) {
+  return cell.ratio.size() == 0 ? 1.0 : h.dot(cell.ratio);
+}
+
+/// Forces by strains, in the order of shell_kinematics.hpp, where the sheet is `ratio` as thick.
+SectionMatrix section_at(const ShellStiffness& s, double ratio) {
+  SectionMatrix C = SectionMatrix::Zero();
+  C.block<3, 3>(0, 0) = ratio * s.A;
+  C.block<3, 3>(0, 3) = ratio * ratio * s.B;
+  C.block<3, 3>(3, 0) = ratio * ratio * s.B.transpose();
+  C.block<3, 3>(3, 3) = ratio * ratio * ratio * s.D;
+  C.block<2, 2>(6, 6) = ratio * s.S;
+  C(8, 8) = ratio * s.drilling;
+  return C;
+}
+
+/// Stiffness of the mid-surface, and the inner DoFs by those of the nodes.
+struct Condensed {
+  ShellMatrix K;
+  InnerByNodes inner;
+};
+
+Condensed condense(const ShellTheory& theory, const ShellCell& cell) {
+  const mesh::FaceRule& rule = theory.rule();
+  const Eigen::Index points = rule.weights.size(), n = theory.node_columns(), c = theory.columns();
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxRows, kShellColumns> strain, force;
+  strain.resize(kShellStrains * points, c);
+  force.resize(kShellStrains * points, c);
+  for (Eigen::Index q = 0; q < points; ++q) {
+    const SurfacePoint p(theory.mid(), rule.points.row(q).transpose());
+    const ShellStrain B = theory.strain(p);
+    const double weight = rule.weights(q) * p.area;
+    strain.middleRows<kShellStrains>(kShellStrains * q) = B;
+    force.middleRows<kShellStrains>(kShellStrains * q) =
+        (weight * section_at(cell.stiffness, ratio_at(cell, p.h))).lazyProduct(B);
+  }
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kShellColumns, kShellColumns> K(c, c);
+  K.noalias() = strain.transpose() * force;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kShellInner, kShellInner> own =
+      K.bottomRightCorner(c - n, c - n);
+  Condensed out;
+  // LDL^T: where the section does not resist, inner DoFs are zero.
+  out.inner = -own.ldlt().solve(K.bottomLeftCorner(c - n, n));
+  out.K = K.topLeftCorner(n, n) + K.topRightCorner(n, c - n).lazyProduct(out.inner);
+  return out;
+}
+
+/// int h_i h_j of the mass and of the rotary inertia per area.
+struct NodalMass {
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4> mass, rotary;
+};
+
+NodalMass nodal_mass(const MidSurface& mid, const ShellCell& cell) {
+  const mesh::FaceRule& rule = mesh::face_rule(mid.type);
+  const Eigen::Index n = mid.x.rows();
+  NodalMass out;
+  out.mass.setZero(n, n);
+  out.rotary.setZero(n, n);
+  const ShellStiffness& s = cell.stiffness;
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+    const SurfacePoint p(mid, rule.points.row(q).transpose());
+    const double ratio = ratio_at(cell, p.h), weight = rule.weights(q) * p.area;
+    out.mass += weight * (s.area_mass + ratio * (s.mass - s.area_mass)) * p.h * p.h.transpose();
+    out.rotary += weight * ratio * ratio * ratio * s.rotary * p.h * p.h.transpose();
+  }
+  return out;
+}
+
+/// The diagonal scaled to the same total (lump_hrz of element.hpp).
+void lump(Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>& m) {
+  const double trace = m.trace();
+  if (!(trace > 0.0)) return;
+  const ShellWeights diagonal = m.sum() / trace * m.diagonal();
+  m = diagonal.asDiagonal();
+}
+
+/// Of the mid-surface. A rotation about a director moves no mass: its inertia is that of
+/// w = theta x V.
+ShellMatrix mass_of(const MidSurface& mid, const ShellCell& cell, MassForm form) {
+  NodalMass nodal = nodal_mass(mid, cell);
+  if (form == MassForm::kHrz) {
+    lump(nodal.mass);
+    lump(nodal.rotary);
+  }
+  const Eigen::Index n = mid.x.rows();
+  ShellMatrix M = ShellMatrix::Zero(6 * n, 6 * n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) {
+      M.block<3, 3>(6 * i, 6 * j).diagonal().setConstant(nodal.mass(i, j));
+      M.block<3, 3>(6 * i + 3, 6 * j + 3) =
+          nodal.rotary(i, j) *
+          cross_matrix(mid.V.row(i)).transpose().lazyProduct(cross_matrix(mid.V.row(j)));
+    }
+  return M;
+}
+
+/// From DoFs of the mid-surface to those of the nodes: u_mid = u + theta x (offset V).
+void to_nodes(const ShellCell& cell, ShellMatrix& A) {
+  if (cell.offset == 0.0) return;
+  for (Eigen::Index i = 0; i < cell.x.rows(); ++i) {
+    const Eigen::Matrix3d arm = cross_matrix(cell.offset * cell.directors.row(i));
+    A.middleCols<3>(6 * i + 3) += A.middleCols<3>(6 * i).lazyProduct(arm);
+    A.middleRows<3>(6 * i + 3) += arm.transpose().lazyProduct(A.middleRows<3>(6 * i));
+  }
+}
+
+}  // namespace
+
+bool compute_shell(const ShellCell& cell, MassForm form, ShellMatrices& out) {
+  const MidSurface mid(cell);
+  return with_theory(mid, [&](const ShellTheory& theory) {
+    if (!theory.is_shell()) return false;
+    const ShellMatrix K = condense(theory, cell).K;
+    out.stiffness = 0.5 * (K + K.transpose());
+    out.mass = mass_of(mid, cell, form);
+    to_nodes(cell, out.stiffness);
+    to_nodes(cell, out.mass);
+    return true;
+  });
+}
+
+ShellStrains shell_strains(const ShellCell& cell, const Eigen::VectorXd& u,
+                           const Eigen::Vector2d& at) {
+  const MidSurface mid(cell);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 24, 1> moved = u;
+  for (Eigen::Index i = 0; i < cell.x.rows(); ++i)
+    moved.segment<3>(6 * i) +=
+        cross_matrix(cell.offset * cell.directors.row(i)) * u.segment<3>(6 * i + 3);
+  return with_theory(mid, [&](const ShellTheory& theory) {
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kShellColumns, 1> all(theory.columns());
+    all << moved, condense(theory, cell).inner * moved;
+    const SurfacePoint p(mid, at);
+    const Eigen::Matrix<double, kShellStrains, 1> e = theory.strain(p) * all;
+    return ShellStrains{e.head<3>(), e.segment<3>(3), e.segment<2>(6), p.axes, ratio_at(cell, p.h)};
+  });
+}
+
+}  // namespace clatter::fe

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// What the triangles and quadrilaterals of shells have in common: their surface, and the strains
+// by the motions of their nodes. Used by shell*.cpp alone.
+//
+// Strains, nine rows: membrane 11 22 12, curvature 11 22 12, shear 13 23, and the rotation about
+// the normal beside that of the membrane (drilling). Columns: six DoFs of each node, then those
+// that the cell has beside its nodes.
+#include "core/fe/shell.hpp"
+#include "core/mesh/quadrature.hpp"
+#include "core/mesh/shape.hpp"
+
+namespace clatter::fe {
+
+inline constexpr int kShellStrains = 9;
+inline constexpr int kShellInner = 4;                   // at most
+inline constexpr int kShellColumns = 24 + kShellInner;  // at most
+
+using ShellRow = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kShellColumns>;
+template <int rows>
+using ShellRows = Eigen::Matrix<double, rows, Eigen::Dynamic, 0, rows, kShellColumns>;
+using ShellStrain = ShellRows<kShellStrains>;
+/// Of each node.
+using ShellWeights = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
+
+/// theta x v = cross_matrix(v) theta.
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
+
+/// The mid-surface of a cell.
+struct MidSurface {
+  mesh::FaceType type;
+  ShellNodes x, V;
+  Eigen::Vector3d axis;  // of direction 1, not zero
+
+  explicit MidSurface(const ShellCell& cell);
+};
+
+/// A point of it; a, b: the base vectors x,r and x,s.
+struct SurfacePoint {
+  Eigen::Vector2d at;          // r, s
+  ShellWeights h, h_r, h_s;    // shape functions
+  Eigen::Vector3d x_r, x_s;    // [m]
+  Eigen::Vector3d normal;      // unit
+  double area;                 // |x,r x x,s| [m2]
+  Eigen::Matrix3d axes;        // columns: 1, 2, normal
+  Eigen::Matrix2d to_axes;     // (a, i): direction a along the contravariant vector i
+  Eigen::Matrix3d strain_map;  // 11 22 12 (engineering) by rr ss rs (tensor) components
+
+  SurfacePoint(const MidSurface& mid, const Eigen::Vector2d& at);
+};
+
+/// Strains of one kind of cell.
+class ShellTheory {
+ public:
+  virtual ~ShellTheory() = default;
+
+  /// Of the stiffness.
+  virtual const mesh::FaceRule& rule() const = 0;
+  virtual ShellStrain strain(const SurfacePoint& point) const = 0;
+  /// Neither concave, folded, nor without area.
+  virtual bool is_shell() const;
+
+  const MidSurface& mid() const { return mid_; }
+  Eigen::Index node_columns() const { return 6 * mid_.x.rows(); }
+  Eigen::Index columns() const { return node_columns() + inner_; }
+
+ protected:
+  ShellTheory(const MidSurface& mid, const Eigen::Vector2d& centre, int inner)
+      : mid_(mid), centre_(mid, centre), inner_(inner) {}
+
+  /// direction . sum weight_i u_i, and direction . sum weight_i theta_i x V_i.
+  ShellRow translation(const Eigen::Vector3d& direction, const ShellWeights& weight) const;
+  ShellRow turning(const Eigen::Vector3d& direction, const ShellWeights& weight) const;
+
+  /// Components rr ss rs of the curvature, (x,i . w,j + x,j . w,i + V,i . u,j + V,j . u,i) / 2.
+  ShellRows<3> curvature(const SurfacePoint& point) const;
+  /// Twice the component of the shear strain along r (0) or s (1): x,i . w + V . u,i.
+  ShellRow shear(const SurfacePoint& point, int i) const;
+  ShellRow drilling(const SurfacePoint& point) const;
+  /// The rows of `point` by components: rr ss rs of the membrane and curvature, r s of the shear.
+  ShellStrain in_axes(const SurfacePoint& point, const ShellRows<3>& membrane,
+                      const ShellRows<3>& curvature, const ShellRows<2>& shear) const;
+
+  const MidSurface& mid_;
+  SurfacePoint centre_;
+
+ private:
+  int inner_;
+};
+
+/// Four inner columns: the enhanced strains.
+class QuadShell final : public ShellTheory {
+ public:
+  explicit QuadShell(const MidSurface& mid);
+  const mesh::FaceRule& rule() const override { return mesh::quad_rule_4(); }
+  ShellStrain strain(const SurfacePoint& point) const override;
+  bool is_shell() const override;
+
+ private:
+  ShellRows<3> membrane(const Eigen::Vector2d& at) const;
+  void replace_warp();
+
+  ShellRow constant_r_, constant_s_, constant_rs_, linear_r_, linear_s_, bilinear_, replaced_;
+  Eigen::Vector2d skew_;                            // c_r, c_s: 0 for parallelograms
+  ShellRow shear_a_, shear_b_, shear_c_, shear_d_;  // at (0, 1), (-1, 0), (0, -1), (1, 0)
+};
+
+/// Two inner columns: rotations of the bubble.
+class TriangleShell final : public ShellTheory {
+ public:
+  explicit TriangleShell(const MidSurface& mid);
+  const mesh::FaceRule& rule() const override { return mesh::triangle_rule_6(); }
+  ShellStrain strain(const SurfacePoint& point) const override;
+
+ private:
+  ShellRows<2> shear_at(double r, double s) const;
+  /// direction . theta x V of the bubble, whose factor (27 r s (1 - r - s) or a derivative) is
+  /// `factor`.
+  void add_bubble(const Eigen::Vector3d& direction, double factor, ShellRow& row) const;
+
+  ShellRows<3> membrane_;
+  Eigen::Vector3d V_;                 // mean director
+  ShellRow mean_r_, mean_s_, twist_;  // of the tied shear strains
+};
+
+}  // namespace clatter::fe
