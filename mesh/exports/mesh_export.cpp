@@ -53,6 +53,10 @@ void check_export(const std::filesystem::path& path) { writer_of(path); }
 
 void export_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   const Writer write = writer_of(path);
+  if (!mesh.shells.empty() && path.extension() != ".vtu")
+    throw InputError(fmt::format(
+        "{}: found the shells of region \"{}\", expected solids alone: only .vtu has shells",
+        path.string(), mesh.regions[mesh.shells[0].region]));
   if (path.extension() != ".vtu") warn_of_hanging_mid_side_nodes(mesh, path);
   write(mesh, path);
 }

@@ -167,6 +167,10 @@ std::vector<int32_t> CellNeighbours::bodies() const {
 }
 
 Partition partition_cells(const Mesh& mesh, int parts) {
+  if (!mesh.shells.empty())
+    throw InputError(
+        fmt::format("partition: found the shells of region \"{}\", expected solids alone",
+                    mesh.regions[mesh.shells[0].region]));
   const int64_t cells = mesh.cell_count();
   if (parts < 1 || parts > cells)
     throw InputError(

@@ -20,26 +20,27 @@ using assembly::testing::sheet;
 
 constexpr double kL = 0.4, kB = 0.05, kT = 0.002, kE = 2e11;
 constexpr double kI = kB * kT * kT * kT / 12.0;
-const std::string kClamp =
+const std::string kClampedSide =
     "[[support]]\nname = \"wall\"\nnode_set = \"x0\"\n"
     "directions = [\"x\", \"y\", \"z\", \"rx\", \"ry\", \"rz\"]\n";
 /// The side x1 follows a point.
 const std::string kRigidEnd =
     "[[point]]\nname = \"end\"\nat = [0.4, 0.025, 0.0]\n"
-    "[[coupling]]\nkind = \"node\"\npoint = \"end\"\nrigid = true\nnode_set = \"x1\"\n"
+    "[[coupling]]\npoint = \"end\"\ntype = \"rigid\"\nnode_set = \"x1\"\n"
     "directions = [\"x\", \"y\", \"z\", \"rx\", \"ry\", \"rz\"]\n";
 
-fe::FeModel strip(const std::string& toml) {
-  return build_all(sheet(kL, kB, 16, 2), kSheetSteel + kClamp + toml).model;
+fe::FeModel clamped_strip(const std::string& toml) {
+  return build_all(sheet(kL, kB, 16, 2), kSheetSteel + kClampedSide + toml).model;
 }
 
-StaticCase solved(const fe::FeModel& model) { return solve_static(model, {}).cases.at(0); }
+StaticCase only_case(const fe::FeModel& model) { return solve_static(model, {}).cases.at(0); }
 
 TEST(Sheet, AClampedStripBendsLikeABeamAndCarriesTheMomentAtItsFaces) {
-  const fe::FeModel model = strip(kRigidEnd +
-                                  "[[load]]\nname = \"tip\"\nkind = \"force\"\nset = \"end\"\n"
-                                  "force = [0.0, 0.0, 10.0]\n");
-  const StaticCase tip = solved(model);
+  const fe::FeModel model =
+      clamped_strip(kRigidEnd +
+                    "[[load]]\nname = \"tip\"\nkind = \"force\"\nset = \"end\"\n"
+                    "force = [0.0, 0.0, 10.0]\n");
+  const StaticCase tip = only_case(model);
   const double G = kE / 2.0;
   const double want = 10.0 * kL * kL * kL / (3.0 * kE * kI) + 10.0 * kL / (5.0 / 6.0 * G * kB * kT);
   EXPECT_NEAR(tip.points(2), want, 1e-3 * want);
@@ -55,7 +56,7 @@ TEST(Sheet, AClampedStripBendsLikeABeamAndCarriesTheMomentAtItsFaces) {
 }
 
 TEST(Sheet, APointOnANodeTurnsWithIt) {
-  const StaticCase tip = solved(strip(
+  const StaticCase tip = only_case(clamped_strip(
       "[[point]]\nname = \"tip\"\nnode_set = \"tip\"\n"
       "[[load]]\nname = \"twist\"\nkind = \"force\"\nset = \"tip\"\nmoment = [0.0, 1.0, 0.0]\n"));
   const double turn = kL / (kE * kI), sag = -kL * kL / (2.0 * kE * kI);
@@ -94,11 +95,11 @@ TEST(Sheet, OffsetMovesTheMassAndBendsByThePullOfItsNodes) {
   EXPECT_NEAR(build_all(sheet(kL, kB, 4, 2), offset).model.mass.centre(2), 0.003, 1e-12);
   const fe::FeModel model =
       build_all(sheet(kL, kB, 16, 2),
-                offset + kClamp + kRigidEnd +
+                offset + kClampedSide + kRigidEnd +
                     "[[load]]\nname = \"pull\"\nkind = \"force\"\nset = \"end\"\n"
                     "force = [1000.0, 0.0, 0.0]\n")
           .model;
-  const StaticCase pull = solved(model);
+  const StaticCase pull = only_case(model);
   const double moment = -1000.0 * 0.003;  // about the middle of the sheet
   EXPECT_NEAR(pull.points(4), moment * kL / (kE * kI), 1e-6 * kL / (kE * kI));
   EXPECT_NEAR(pull.points(0),
@@ -107,7 +108,7 @@ TEST(Sheet, OffsetMovesTheMassAndBendsByThePullOfItsNodes) {
 
 TEST(Sheet, ComesBackFromItsFile) {
   const auto path = test::scratch_path("sheet.fe.h5");
-  const fe::FeModel model = strip("");
+  const fe::FeModel model = clamped_strip("");
   H5File file = H5File::create(path);
   write_provenance(file, {fe::kFeSchema, "", {}});
   fe::write_fe_model(file, model);
@@ -121,20 +122,20 @@ TEST(Sheet, ComesBackFromItsFile) {
   EXPECT_EQ(back.cells.sections[0].thickness, kT);
 }
 
-std::string refusal(const std::string& toml) {
+std::string refused(const std::string& toml) {
   return test::refusal_of([&] { build_all(sheet(kL, kB, 4, 2), toml); });
 }
 
 TEST(Sheet, RefusesWhatItIsNot) {
   const std::string steel = kSheetSteel.substr(0, kSheetSteel.find("[[shell]]"));
-  test::expect_parts(refusal(steel),
+  test::expect_parts(refused(steel),
                      {"shell: found no thickness of region \"sheet\"", "[[shell]]"});
-  test::expect_parts(refusal(kSheetSteel + "[[shell]]\nregions = [\"sheet\"]\nthickness = 1.0\n"),
+  test::expect_parts(refused(kSheetSteel + "[[shell]]\nregions = [\"sheet\"]\nthickness = 1.0\n"),
                      {"regions: found \"sheet\" in two [[shell]]"});
-  test::expect_parts(refusal(kSheetSteel + "[[shell]]\nregions = [\"lid\"]\nthickness = 1.0\n"),
+  test::expect_parts(refused(kSheetSteel + "[[shell]]\nregions = [\"lid\"]\nthickness = 1.0\n"),
                      {"regions: found \"lid\", expected one of: sheet"});
   test::expect_parts(
-      refusal("[material.steel]\nregions = [\"sheet\"]\nE = 2e11\nnu = 0.0\nrho = 8000.0\n"
+      refused("[material.steel]\nregions = [\"sheet\"]\nE = 2e11\nnu = 0.0\nrho = 8000.0\n"
               "expansion = 1e-5\n[[shell]]\nregions = [\"sheet\"]\nthickness = 0.002\n"
               "[[load]]\nname = \"warm\"\nkind = \"temperature\"\n"),
       {"found temperature and the shells of region \"sheet\"", "without expansion"});

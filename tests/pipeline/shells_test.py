@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Decks of shells through the stages: a free plate and a pan of sheet steel, against plate theory and solid elements."""
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+import h5py  # noqa: E402
+import numpy as np  # noqa: E402
+import stages  # noqa: E402
+
+PAN = pathlib.Path(__file__).resolve().parents[3] / "shared" / "reference" / "shells" / "pan.py"
+
+# 300 x 200 x 1.5 mm of steel, free: Mindlin's plate by a Ritz series [Hz].
+PLATE = [83.337, 88.892, 192.213, 207.166, 239.468, 278.099]
+# The pan of pan.py, 1.5 mm, free: two layers of quadratic solids of 5 mm [Hz].
+SOLIDS = [207.45, 250.08, 385.74, 548.36, 598.64, 612.59, 715.58, 892.95, 963.68, 984.95, 993.95, 1161.67]
+
+
+def plate_deck(nx, ny):
+    lines = ["SOL 103", "CEND", "METHOD = 3", "BEGIN BULK", "PARAM,COUPMASS,1", "EIGRL,3,,,12"]
+    for j in range(ny + 1):
+        lines += [f"GRID,{j * (nx + 1) + i + 1},,{300 * i / nx:.5f},{200 * j / ny:.5f},0." for i in range(nx + 1)]
+    for j in range(ny):
+        for i in range(nx):
+            a = j * (nx + 1) + i + 1
+            lines.append(f"CQUAD4,{j * nx + i + 1},5,{a},{a + 1},{a + nx + 2},{a + nx + 1}")
+    return "\n".join(lines + ["PSHELL,5,1,1.5,1,,1", "MAT1,1,210000.,,.3,7.85-9", "ENDDATA", ""])
+
+
+class Shells(unittest.TestCase):
+    def setUp(self):
+        stages.require_stages()
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="clatter-shells-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def run_stages(self, *commands):
+        for stage, *arguments in commands:
+            done = stages.run_stage(stage, *arguments, folder=self.folder)
+            self.assertEqual(done.returncode, 0, f"{stage}: {done.stderr}")
+
+    def frequencies(self, deck, count):
+        name = pathlib.Path(deck).stem
+        self.run_stages(("mesh", deck, "--units", "mm-t-s", "-o", f"{name}.mesh.h5", "--recipe", f"{name}.fe.toml"),
+                        ("assembly", f"{name}.mesh.h5", "-c", f"{name}.fe.toml", "-o", f"{name}.fe.h5"),
+                        ("modal", f"{name}.fe.h5", "--count", str(count), "-o", f"{name}.modes.h5"))
+        with h5py.File(self.folder / f"{name}.modes.h5") as file:
+            return file["frequency_hz"][()]
+
+    def test_a_free_plate_has_six_rigid_motions_and_the_frequencies_of_plate_theory(self):
+        (self.folder / "plate.bdf").write_text(plate_deck(30, 20))
+        hz = self.frequencies("plate.bdf", 12)
+        elastic = hz[hz > 1.0]
+        self.assertEqual(len(hz) - len(elastic), 6)
+        # Consistent mass: from above; second order.
+        np.testing.assert_allclose(elastic[:6] / PLATE, 1.0, atol=7e-3)
+        (self.folder / "fine.bdf").write_text(plate_deck(60, 40))
+        fine = self.frequencies("fine.bdf", 12)
+        error, finer = elastic[5] / PLATE[5] - 1, fine[fine > 1.0][5] / PLATE[5] - 1
+        self.assertGreater(error / finer, 3.5)
+
+    @unittest.skipUnless(PAN.exists(), "the reference's pan is not here")
+    def test_a_pan_agrees_with_quadratic_solids(self):
+        subprocess.run([sys.executable, str(PAN), str(self.folder / "pan.inp"), "--cells", "s4", "--level", "2", "--t",
+                        "1.5"], check=True, capture_output=True, cwd=self.folder)
+        hz = self.frequencies("pan.inp", 18)
+        elastic = hz[hz > 1.0]
+        np.testing.assert_allclose(elastic[:12] / SOLIDS, 1.0, atol=8e-3)
+
+    def test_a_condensed_pan_keeps_its_frequencies_below_the_cut_off(self):
+        (self.folder / "plate.bdf").write_text(plate_deck(30, 20))
+        full = self.frequencies("plate.bdf", 10)
+        with h5py.File(self.folder / "plate.mesh.h5") as file:
+            self.assertEqual(len(file["shells"]), 1)
+        recipe = (self.folder / "plate.fe.toml").read_text()
+        with h5py.File(self.folder / "plate.mesh.h5", "r+") as file:
+            file["node_sets/corners"] = np.array([0, 30, 20 * 31, 21 * 31 - 1], dtype=np.int32)
+        (self.folder / "plate.fe.toml").write_text(recipe + '\n[[nodes]]\nname = "corners"\nnode_set = "corners"\n'
+                                                   'directions = "xyz"\n')
+        (self.folder / "plate.rom.toml").write_text('boundary = ["corners"]\nfmax_hz = 800.0\nskin = ["skin"]\n')
+        self.run_stages(("assembly", "plate.mesh.h5", "-c", "plate.fe.toml", "-o", "plate.fe.h5"),
+                        ("condense", "plate.fe.h5", "-c", "plate.rom.toml", "-o", "plate.rom.h5"),
+                        ("modal", "plate.rom.h5", "--count", "10", "-o", "rom.modes.h5"))
+        with h5py.File(self.folder / "rom.modes.h5") as file:
+            reduced = file["frequency_hz"][()]
+        np.testing.assert_allclose(reduced[6:10], full[6:10], rtol=1e-3)
+
+
+if __name__ == "__main__":
+    unittest.main()
