@@ -5,10 +5,15 @@
 
 #include <algorithm>
 
+#include "mesh/deck/shell_joints.hpp"
+
 namespace clatter::mesh::deck {
 
 void settle_beam_ends(Deck& deck) {
-  const auto on_solids = [&](NodeIndex end) { return end < deck.mesh.nodes.rows(); };
+  const std::vector<bool> turns = turning_nodes(deck.mesh);
+  const auto on_solids = [&](NodeIndex end) {
+    return end < deck.mesh.nodes.rows() && !turns[static_cast<size_t>(end)];
+  };
   std::vector<const Beam*> hinged;
   for (Beam& beam : deck.beams) {
     const auto ends = std::ranges::count_if(beam.ends, on_solids);

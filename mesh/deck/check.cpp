@@ -62,10 +62,17 @@ void add_refusal(const Refusal& refusal, std::vector<CheckedRow>& rows) {
                   refusal.position, text + again});
 }
 
+int64_t shells_in(const Mesh& mesh) {
+  int64_t count = 0;
+  for (const ShellBlock& block : mesh.shells) count += block.nodes.rows();
+  return count;
+}
+
 std::string summary_of(const Deck& deck) {
   const std::pair<int64_t, const char*> counts[] = {
       {deck.mesh.nodes.rows(), "nodes"},
       {deck.mesh.cell_count(), "cells"},
+      {shells_in(deck.mesh), "shells"},
       {deck.mesh.regions.size(), "regions"},
       {deck.points.size(), "points"},
       {deck.rigid.size() + deck.distributing.size(), "couplings"},

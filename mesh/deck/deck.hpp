@@ -215,6 +215,7 @@ struct Deck {
   std::map<std::string, System> systems;
   std::map<std::string, Material> materials;
   std::vector<Region> regions;
+  std::vector<recipe::Shell> shells;  // sections of regions of shells
   std::vector<Rigid> rigid;
   std::vector<Distributing> distributing;
   std::vector<Tie> ties;

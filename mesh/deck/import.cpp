@@ -14,6 +14,7 @@
 #include "mesh/deck/beam_ends.hpp"
 #include "mesh/deck/cell_repair.hpp"
 #include "mesh/deck/nastran/reader.hpp"
+#include "mesh/deck/shell_joints.hpp"
 
 namespace clatter::mesh::deck {
 namespace {
@@ -39,6 +40,9 @@ void note_origin(Deck& deck, const UnitSystem& units) {
   for (const Point& point : deck.points)
     origin.largest_node = std::max(origin.largest_node, point.id);
   for (const CellBlock& block : deck.mesh.cells)
+    for (const int32_t id : block.ids)
+      origin.largest_element = std::max(origin.largest_element, id);
+  for (const ShellBlock& block : deck.mesh.shells)
     for (const int32_t id : block.ids)
       origin.largest_element = std::max(origin.largest_element, id);
 }
@@ -72,11 +76,12 @@ Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
 }
 
 void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where, bool say_notes) {
-  if (deck.mesh.cell_count() == 0 && deck.springs.empty() && deck.matrices.empty() &&
+  if (deck.mesh.cell_count() == 0 && deck.mesh.shells.empty() && deck.springs.empty() && deck.matrices.empty() &&
       deck.beams.empty())
     throw InputError(
-        fmt::format("{}: found no solid cells, beams and springs, expected some", where));
+        fmt::format("{}: found no solid cells, shells, beams and springs, expected some", where));
   settle_beam_ends(deck);
+  note_cold_shells(deck);
   std::ranges::move(repair_cells(deck.mesh, where), std::back_inserter(deck.renumbered));
   for (const Support& retained : deck.retained)
     if (!retained.system.empty())

@@ -53,6 +53,18 @@ void convert_beam(Beam& beam, const UnitSystem& units) {
   }
 }
 
+void convert_shells(Deck& deck, const UnitSystem& units) {
+  for (recipe::Shell& shell : deck.shells) {
+    shell.section.thickness *= units.length;
+    shell.section.offset *= units.length;
+    shell.section.area_mass *= units.mass / (units.length * units.length);
+  }
+  for (ShellBlock& block : deck.mesh.shells) {
+    block.thickness *= units.length;
+    block.offset *= units.length;
+  }
+}
+
 bool is_rotation(const Support& support) { return (support.dofs & kTranslations) == 0; }
 
 void convert_supports(std::vector<Support>& supports, const UnitSystem& units) {
@@ -91,6 +103,7 @@ void convert_units(Deck& deck, const UnitSystem& units) {
       if (!turns && term.direction >= 3) term.coefficient *= units.length;
   }
   for (Beam& beam : deck.beams) convert_beam(beam, units);
+  convert_shells(deck, units);
   for (Mass& mass : deck.masses) {
     mass.mass *= units.mass;
     mass.inertia *= units.mass * units.length * units.length;

@@ -42,7 +42,7 @@ class Connector {
     for (const int32_t row : rows_) {
       if (row < 0) continue;  // the ground
       ends_.push_back(model.node_map.require(row));
-      turns_.push_back(model.node_map.is_point(ends_.back()));
+      turns_.push_back(model.node_map.turns(ends_.back()));
       bound_.push_back(bound.contains(row));
     }
     first_ = model.numbering.at(rows_[0]);

@@ -26,8 +26,7 @@ DofMask mask_of(const Card& card, const Source& source, DofMask all) {
 // Node index of a reference node: with its own rotations, even on a mesh node.
 NodeIndex rigid_reference(Model& model, int32_t row) {
   NodeMap& node_map = model.node_map;
-  return node_map.mesh_node(row) == NodeMap::kNone ? node_map.require(row)
-                                                   : node_map.point_upon(row);
+  return node_map.is_of_solids(row) ? node_map.point_upon(row) : node_map.require(row);
 }
 
 void read_rigid_body(Model& model, size_t use, const Card& card) {
@@ -61,7 +60,7 @@ void read_rigid_body(Model& model, size_t use, const Card& card) {
       rows.insert(rows.end(), nodes.begin(), nodes.end());
     }
   }
-  if (model.node_map.mesh_node(row) != NodeMap::kNone) rows.push_back(row);
+  if (model.node_map.is_of_solids(row)) rows.push_back(row);
   sort_unique(rows);
   if (keyword.has("ROTNODE")) {
     const int32_t rotation =
@@ -114,7 +113,7 @@ void read_kinematic_coupling(Model& model, size_t use, const Card& card) {
     rigid.where = model.source.where(card.origin());
     rigid.reference = rigid_reference(model, row);
     rigid.dofs = mask;
-    if (&nodes == &rows.begin()->second && model.node_map.mesh_node(row) != NodeMap::kNone) {
+    if (&nodes == &rows.begin()->second && model.node_map.is_of_solids(row)) {
       nodes.push_back(row);  // the reference is a mesh node: its point moves it
     }
     sort_unique(nodes);
@@ -184,7 +183,7 @@ void read_kinematic(Model& model, const Coupling& coupling, const Card& card) {
     }
   }
   const bool own = std::find(rows.begin(), rows.end(), coupling.row) != rows.end();
-  if (!own && model.node_map.mesh_node(coupling.row) != NodeMap::kNone) {
+  if (!own && model.node_map.is_of_solids(coupling.row)) {
     Rigid carrier = rigid;  // the reference is a mesh node: its point moves it
     carrier.name += "_reference";
     carrier.dofs = kAllDofs;
@@ -307,8 +306,9 @@ void finish_couplings(Model& model) {
     for (const int32_t row : rows) {
       NodeIndex node_index = model.node_map.find(row);
       if (node_index == rigid.reference) {
+        if (!model.node_map.is_of_solids(row)) continue;
         node_index = model.node_map.mesh_node(row);
-        if (node_index == NodeMap::kNone || !carried.insert(node_index).second) continue;
+        if (!carried.insert(node_index).second) continue;
       }
       if (node_index != NodeMap::kNone) rigid.dependents.push_back(node_index);
     }

@@ -139,7 +139,7 @@ BasicTerms basic_terms(Model& model, const RawEquation& equation) {
     const NodeIndex rotated = node_map.rotation_of(term.row);
     const NodeIndex node_index = rotated == NodeMap::kNone ? node_map.require(term.row) : rotated;
     const int direction = rotated == NodeMap::kNone ? term.direction : term.direction + 3;
-    if (direction > 5 || (direction > 2 && !node_map.is_point(node_index))) {
+    if (direction > 5 || (direction > 2 && !node_map.turns(node_index))) {
       model.source.fail(equation.origin,
                         fmt::format("found rotation {} of node {}, which has no rotations",
                                     term.direction + 1, model.numbering.node_ids()[term.row]));

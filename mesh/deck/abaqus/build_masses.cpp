@@ -73,7 +73,7 @@ void build_masses(Model& model) {
       Mass& mass = add(element, card);
       const Use& at = model.numbering.uses()[use];
       mass.inertia = at.rotation * inertia_of(fields) * at.rotation.transpose();
-      if (!model.node_map.is_point(mass.node_index)) {
+      if (!model.node_map.turns(mass.node_index)) {
         model.source.fail(element.origin, fmt::format("element {}: its node belongs to a solid "
                                                       "and has no rotations",
                                                       element.id));

@@ -8,11 +8,16 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// Numbers the nodes that cells use, in the order of the deck, and copies them.
-std::vector<int32_t> take_nodes(const Numbering& numbering, Mesh& mesh) {
+// Numbers the nodes that cells and shells use, in the order of the deck, and copies them.
+std::vector<int32_t> take_nodes(const Numbering& numbering, const ShellParts& shells, Mesh& mesh) {
   std::vector<int32_t> node(static_cast<size_t>(numbering.nodes()), NodeMap::kNone);
   for (const FlatTable& table : numbering.tables()) {
     for (const int32_t row : table.nodes) node[row] = 0;
+  }
+  for (size_t t = 0; t < numbering.thin().size(); ++t) {
+    if (shells.section(static_cast<int32_t>(t)) < 0) continue;
+    const ThinElement& shell = numbering.thin()[t];
+    for (int32_t i = 0; i < shell.count; ++i) node[shell.nodes[i]] = 0;
   }
   int32_t count = 0;
   for (int32_t& n : node) {
@@ -100,20 +105,26 @@ class Blocks {
 void build_mesh(Model& model) {
   const bool has_lines =
       std::ranges::any_of(model.numbering.thin(), [](const ThinElement& one) { return !one.face; });
-  if (model.numbering.cells() == 0 && !has_lines) {
+  find_shells(model);
+  const bool has_shells =
+      std::ranges::any_of(model.shells.section_of, [](int32_t section) { return section >= 0; });
+  if (model.numbering.cells() == 0 && !has_lines && !has_shells) {
     model.refusals.raise();
     std::map<std::string, int64_t> others;
     for (const ThinElement& one : model.numbering.thin()) ++others[one.type];
     throw InputError(
-        fmt::format("{}: found no solid elements and no beams{}, expected some of C3D4 C3D5 C3D6 "
+        fmt::format("{}: found no solid elements, beams and shells with a section{}, expected "
+                    "some of C3D4 C3D5 C3D6 "
                     "C3D8 C3D8I C3D8R C3D10 C3D15 C3D20 C3D20R",
                     model.source.where(model.source.origin()),
                     others.empty() ? "" : fmt::format(" but {}", counted(others))));
   }
   build_regions(model);
-  model.node_map.set_mesh_nodes(take_nodes(model.numbering, model.deck.mesh));
+  model.node_map.set_mesh_nodes(take_nodes(model.numbering, model.shells, model.deck.mesh));
   cut_bolts(model);
+  add_shell_nodes(model);
   Blocks(model, model.deck.mesh).run();
+  build_shells(model);
 }
 
 }  // namespace clatter::mesh::deck::abaqus

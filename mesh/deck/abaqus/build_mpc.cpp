@@ -216,7 +216,7 @@ void add_pair(Model& model, const std::string& type, const Fields& fields, int32
     Rigid rigid;
     rigid.name = fmt::format("beam_{}", model.deck.rigid.size() + 1);
     rigid.where = model.source.where(fields.origin());
-    const bool in_mesh = node_map.mesh_node(b) != NodeMap::kNone;
+    const bool in_mesh = node_map.is_of_solids(b);
     rigid.reference = in_mesh ? node_map.point_upon(b) : node_map.require(b);
     node_map.require(a);
     std::vector<int32_t> rows = {a};
@@ -226,7 +226,7 @@ void add_pair(Model& model, const std::string& type, const Fields& fields, int32
     return;
   }
   const bool rotations =
-      node_map.is_point(node_map.require(a)) && node_map.is_point(node_map.require(b));
+      node_map.turns(node_map.require(a)) && node_map.turns(node_map.require(b));
   for (int k = 0; k < (type == "TIE" && rotations ? 6 : 3); ++k) {
     equations.push_back({fields.origin(), {{a, k, 1.0}, {b, k, -1.0}}});
   }

@@ -95,7 +95,7 @@ Equation::Term end_of(Model& model, const PointElement& element, int32_t row, in
   const NodeIndex node_index = rotated == NodeMap::kNone ? node_map.require(row) : rotated;
   if (rotated != NodeMap::kNone) direction += 3;
   const int32_t id = model.numbering.node_ids()[row];
-  if (direction > 5 || (direction > 2 && !node_map.is_point(node_index))) {
+  if (direction > 5 || (direction > 2 && !node_map.turns(node_index))) {
     model.source.fail(element.origin,
                       fmt::format("element {}: node {} has no rotations", element.id, id));
   }

@@ -124,11 +124,24 @@ class SurfaceReader {
     model_.node_surfaces[key] = std::move(rows);
   }
 
+  static int32_t side_of(const Fields& fields) {
+    const std::string side = folded(fields.text(1));
+    if (side == "SNEG") return kSneg;
+    if (side.empty() || side == "SPOS") return kSpos;
+    fields.fail(fmt::format("found face {} of shells, expected SPOS or SNEG", shown(side)));
+  }
+
   // "elements, S3", or "elements": all their faces on the outside of the model. Elements of two
   // dimensions are the faces of the solids that they lie on.
   void add_line(size_t use, const Fields& fields, std::vector<CellFaceId>& faces) {
     fields.at_most(2, "elements, face");
     std::vector<int32_t> cells = model_.sets.elements_at(fields, 0, use);
+    const auto is_shell = [&](int32_t element) { return model_.is_shell(element); };
+    const bool has_shells = std::ranges::any_of(cells, is_shell);
+    for (const int32_t element : cells)
+      if (is_shell(element)) faces.emplace_back(element, side_of(fields));
+    std::erase_if(cells, is_shell);
+    if (has_shells && cells.empty()) return;
     std::vector<const ThinElement*> thin;
     for (const int32_t element : cells) {
       const ThinElement* one = numbering_.thin(element);
@@ -194,6 +207,10 @@ std::string add_surface(Model& model, const std::string& name,
   std::set<CellFaceId> known;
   for (const CellFaceId& id : faces) {
     if (!known.insert(id).second) continue;
+    if (model.is_shell(id.first)) {
+      add_shell_faces(model, id, surface);
+      continue;
+    }
     FaceRows face = face_rows(model.numbering, id);
     for (int32_t& row : face.rows) row = model.node_map.mesh_node_of(id.first, row);
     const CellType type = model.numbering.table_of(id.first).type;
@@ -237,7 +254,11 @@ std::vector<CellFaceId> faces_named(Model& model, size_t use, const std::string&
         model.source.fail(
             origin, fmt::format("found a surface {} of nodes, expected one of faces", shown(name)));
       }
-      return SurfaceReader(model).faces_of(other, card);
+      const std::vector<CellFaceId> faces = SurfaceReader(model).faces_of(other, card);
+      if (std::ranges::any_of(faces, [&](CellFaceId id) { return model.is_shell(id.first); }))
+        model.source.fail(
+            origin, fmt::format("found shells in surface {}, expected faces of solids", shown(name)));
+      return faces;
     }
   }
   model.source.fail(origin, fmt::format("found no surface {}", shown(name)));

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elements of two dimensions or one beside the solids: surfaces and node sets, or refused shells
-// and beams.
+// Elements of two dimensions or one beside the solids that are no shells: surfaces, beams and node
+// sets.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <map>
 
+#include "mesh/deck/abaqus/cells.hpp"
 #include "mesh/deck/abaqus/model.hpp"
 #include "mesh/deck/node_sets.hpp"
 #include "mesh/deck/skins.hpp"
@@ -38,7 +40,7 @@ class ThinElements {
   std::vector<SkinCell> skin_cells() {
     std::vector<SkinCell> cells;
     for (size_t t = 0; t < all_.size(); ++t) {
-      if (!all_[t].face) continue;
+      if (!all_[t].face || is_shell(t)) continue;
       skin_of_[t] = cells.size();
       SkinCell& cell = cells.emplace_back();
       cell.kind = all_[t].type;
@@ -74,6 +76,10 @@ class ThinElements {
     return true;
   }
 
+  bool is_shell(size_t t) const {
+    return model_.is_shell(numbering_.first_thin() + static_cast<int32_t>(t));
+  }
+
   bool is_beam(size_t t) const {
     if (all_[t].face || section_[t] == nullptr) return false;
     const std::string keyword = folded(section_[t]->keyword().name);
@@ -82,6 +88,7 @@ class ThinElements {
 
   // A face without stiffness is only a name; one with a section is refused where no solid has it.
   bool is_structure(size_t t) const {
+    if (is_shell(t)) return false;
     if (all_[t].face) return section_[t] != nullptr && !skins_.is_surface(skin_of_[t]);
     if (is_beam(t)) return false;
     return section_[t] != nullptr || !on_solids(all_[t]);
@@ -95,13 +102,21 @@ class ThinElements {
     for (const auto& [type, count] : found) {
       const ThinElement& first = all_[count.second];
       model_.refusals.add(fmt::format(
-          "{}: {} elements {} are {} beside the solids, which are not read yet; ignore = [\"{}\"] "
-          "leaves out their stiffness and mass: [[spring]], [[coupling]] and [[point_mass]] of the "
-          "recipe replace them",
-          model_.source.where(first.origin), count.first, type,
-          first.face ? "shells or membranes" : "beams or trusses", type));
+          "{}: {} elements {} {}; ignore = [\"{}\"] leaves out their stiffness and mass: "
+          "[[spring]], [[coupling]] and [[point_mass]] of the recipe replace them",
+          model_.source.where(first.origin), count.first, type, reason(first), type));
     }
     return found.empty();
+  }
+
+  static std::string reason(const ThinElement& one) {
+    if (!one.face) return "are beams or trusses beside the solids, which are not read";
+    if (is_shell_type(one.type))
+      return "are shells without a *SHELL SECTION, or between nodes of solids, which do not turn";
+    return fmt::format(
+        "are shells or membranes beside the solids, which are not read, expected {} with a "
+        "*SHELL SECTION",
+        fmt::join(shell_types(), " "));
   }
 
   // Each set that has such elements is a surface of their faces, or a node set of the lines' nodes.
@@ -130,7 +145,7 @@ class ThinElements {
     std::vector<size_t> faces;
     std::vector<NodeIndex> nodes;
     for (const size_t t : members) {
-      if (all_[t].face) faces.push_back(skin_of_[t]);
+      if (all_[t].face && !is_shell(t)) faces.push_back(skin_of_[t]);
       for (int32_t i = 0; !all_[t].face && i < all_[t].count; ++i) {
         nodes.push_back(model_.node_map.require(all_[t].nodes[i]));
       }
@@ -143,8 +158,8 @@ class ThinElements {
   }
 
   std::string where_of_first() const {
-    for (const ThinElement& one : all_) {
-      if (one.face) return model_.source.where(one.origin);
+    for (size_t t = 0; t < all_.size(); ++t) {
+      if (all_[t].face && !is_shell(t)) return model_.source.where(all_[t].origin);
     }
     return "";
   }
@@ -153,7 +168,7 @@ class ThinElements {
   void note_sections() {
     std::map<const Card*, double> areas;
     for (size_t t = 0; t < all_.size(); ++t) {
-      if (section_[t] != nullptr && all_[t].face) areas[section_[t]] += skins_.area(skin_of_[t]);
+      if (section_[t] != nullptr && all_[t].face && !is_shell(t)) areas[section_[t]] += skins_.area(skin_of_[t]);
     }
     for (const auto& [card, area] : areas) {
       const double thickness =

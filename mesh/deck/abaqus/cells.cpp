@@ -46,6 +46,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kReplaced
 constexpr std::array<std::string_view, 8> kThinFamilies = {"CPS",  "CPE", "SFM3D", "M3D",
                                                            "STRI", "R3D", "DS",    "S"};
 
+constexpr std::array<std::string_view, 8> kShells = {"S3", "S3R", "S4",  "S4R",
+                                                     "S6", "S8",  "S8R", "STRI65"};
+
 // Corners of the faces by number, as bit masks.
 constexpr unsigned bits(int a, int b, int c, int d = -1) {
   return 1u << a | 1u << b | 1u << c | (d < 0 ? 0u : 1u << d);
@@ -137,6 +140,12 @@ std::optional<FaceType> thin_type(std::string_view name) {
     }
   }
   return std::nullopt;
+}
+
+std::span<const std::string_view> shell_types() { return kShells; }
+
+bool is_shell_type(std::string_view name) {
+  return std::ranges::find(kShells, folded(name)) != kShells.end();
 }
 
 int line_nodes(std::string_view name) {

@@ -35,6 +35,9 @@ std::span<const std::pair<std::string_view, std::string_view>> replaced_types();
 /// The face that a two-dimensional element is (CPS6, S3, STRI65, M3D4R, SFM3D8), by folded name;
 /// none for other types.
 std::optional<FaceType> thin_type(std::string_view name);
+/// Two-dimensional elements that are read as shells.
+std::span<const std::string_view> shell_types();
+bool is_shell_type(std::string_view name);
 /// Nodes of a one-dimensional element (T3D2, B31), 2 or 3; 0 for other types.
 int line_nodes(std::string_view name);
 

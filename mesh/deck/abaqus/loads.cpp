@@ -81,10 +81,11 @@ void Loads::read_element_load(size_t use, const Fields& fields, double factor, S
   if (label == "CENTRIF") return add_rotation(use, fields, factor, step);
   for (const auto& [name, direction] : {std::pair("BX", 0), {"BY", 1}, {"BZ", 2}})
     if (label == name) return add_force_per_volume(use, fields, direction, factor, step);
+  if (label == "P") return add_shell_pressure(use, fields, factor, step);
   const auto number = label.starts_with('P') ? to_integer(label.substr(1)) : std::nullopt;
   if (!number || *number < 1 || *number > 6) {
     fields.fail(
-        fmt::format("load {} is not supported, expected P1 to P6, GRAV, CENTRIF, BX, BY or "
+        fmt::format("load {} is not supported, expected P1 to P6, P, GRAV, CENTRIF, BX, BY or "
                     "BZ; ignore = [\"*DLOAD\"] leaves out all loads of elements: [[load]] "
                     "of the recipe replaces them",
                     fields.text(1)));
@@ -107,6 +108,27 @@ void Loads::read_element_load(size_t use, const Fields& fields, double factor, S
   }
 }
 
+// Elements, P, pressure: along the normal of shells, on the side that it leaves (Abaqus Analysis
+// User's Guide, distributed loads; CalculiX 2.20 does the same).
+void Loads::add_shell_pressure(size_t use, const Fields& fields, double factor, StepNumber step) {
+  fields.at_most(3, "elements, P, pressure");
+  const double value = factor * fields.number(2, "pressure");
+  for (const int32_t element : model_->sets.elements_at(fields, 0, use)) {
+    if (!model_->is_shell(element))
+      fields.fail(fmt::format("found a pressure P on {}, which has elements that are no shells, "
+                              "expected P1 to P6 of solids",
+                              fields.text(0)));
+    put(faces_, CellFaceId(element, kSneg), Value{value, step, nullptr});
+  }
+}
+
+std::vector<bool> Loads::covered_by(size_t use, const Fields& fields) const {
+  std::vector<bool> covered(static_cast<size_t>(model_->numbering.elements()), false);
+  for (const int32_t element : model_->sets.elements_or_all(fields, 0, use))
+    if (element >= 0) covered[static_cast<size_t>(element)] = true;
+  return covered;
+}
+
 // Elements, CENTRIF, omega^2, a point of the axis, its direction.
 void Loads::add_rotation(size_t use, const Fields& fields, double factor, StepNumber step) {
   fields.at_most(9, "elements, CENTRIF, omega^2, point of the axis, direction");
@@ -124,10 +146,7 @@ void Loads::add_rotation(size_t use, const Fields& fields, double factor, StepNu
   }
   rotation.step = step;
   rotation.origin = fields.origin();
-  rotation.covered.resize(model_->numbering.cells(), false);
-  for (const int32_t element : model_->sets.elements_or_all(fields, 0, use)) {
-    if (element < model_->numbering.cells()) rotation.covered[element] = true;
-  }
+  rotation.covered = covered_by(use, fields);
   // Replaces the value of an earlier step on the same elements.
   std::erase_if(rotations_, [&](const Rotation& other) {
     return other.step != step && other.covered == rotation.covered;
@@ -156,6 +175,8 @@ void Loads::add_force_per_volume(size_t use, const Fields& fields, int direction
     const auto material = model_->deck.materials.find(region.material);
     densities.insert(material == model_->deck.materials.end() ? 0.0 : material->second.density);
   }
+  for (const recipe::Shell& shell : model_->deck.shells)
+    if (shell.section.area_mass > 0.0) densities.insert(0.0);
   if (densities.size() != 1 || !(*densities.begin() > 0.0)) {
     fields.fail(fmt::format(
         "{} acts on {}, expected one density, by which a force per volume is an "
@@ -173,12 +194,11 @@ void Loads::add_acceleration(size_t use, const Fields& fields, const Eigen::Vect
                              StepNumber step) {
   Gravity& gravity = gravity_[{a[0], a[1], a[2]}];
   if (gravity.step != step) gravity = Gravity();
-  gravity.covered.resize(model_->numbering.cells(), false);
+  const std::vector<bool> more = covered_by(use, fields);
+  gravity.covered.resize(more.size(), false);
   gravity.step = step;
   gravity.origin = fields.origin();
-  for (const int32_t element : model_->sets.elements_or_all(fields, 0, use)) {
-    if (element < model_->numbering.cells()) gravity.covered[element] = true;
-  }
+  for (size_t i = 0; i < more.size(); ++i) gravity.covered[i] = gravity.covered[i] || more[i];
   // Ends gravity of an earlier step on these elements: there is one field for all of them.
   std::erase_if(gravity_, [&](const auto& entry) { return entry.second.step != step; });
 }
@@ -252,8 +272,10 @@ void Loads::list_pressures(Step& out) {
 
 void Loads::list_gravity(Step& out) const {
   for (const auto& [vector, gravity] : gravity_) {
-    const auto missing = std::find(gravity.covered.begin(), gravity.covered.end(), false);
-    if (missing != gravity.covered.end()) {
+    bool all = true;
+    for (size_t i = 0; i < gravity.covered.size(); ++i)
+      all = all && (gravity.covered[i] || model_->region_of(static_cast<int32_t>(i)) < 0);
+    if (!all) {
       model_->source.fail(gravity.origin,
                           "GRAV, BX, BY or BZ acts on some elements only, which is not "
                           "supported, expected all");
@@ -268,10 +290,13 @@ void Loads::list_rotations(Step& out) const {
   for (const Rotation& rotation : rotations_) {
     if (rotation.what.omega_squared == 0.0) continue;
     std::vector<bool> turning(mesh.regions.size(), false);
-    for (size_t cell = 0; cell < rotation.covered.size(); ++cell) {
-      const auto region = static_cast<size_t>(model_->region_of_cell[cell]);
-      if (rotation.covered[cell]) turning[region] = true;
-    }
+    const auto region_of = [&](size_t i) { return model_->region_of(static_cast<int32_t>(i)); };
+    for (size_t i = 0; i < rotation.covered.size(); ++i)
+      if (rotation.covered[i] && region_of(i) >= 0) turning[static_cast<size_t>(region_of(i))] = true;
+    for (size_t i = 0; i < rotation.covered.size(); ++i)
+      if (!rotation.covered[i] && region_of(i) >= 0 && turning[static_cast<size_t>(region_of(i))])
+        model_->source.fail(rotation.origin,
+                            "CENTRIF acts on a part of the shells of a section, expected all");
     out.rotations.push_back(rotation.what);
     std::vector<std::string>& names = out.rotations.back().regions;
     for (size_t r = 0; r < turning.size(); ++r) {
@@ -294,6 +319,12 @@ void Loads::list_temperature(Step& out, StepNumber step) {
     if (node == NodeMap::kNone) continue;
     const auto at = static_cast<size_t>(row);
     field(node, 0) = uniform ? temperature_[at] : temperature_[at] - initial[at];
+  }
+  for (const auto& [thin, centre] : model_->shells.centres) {
+    field(centre, 0) = 0.0;
+    for (size_t i = 0; i < 4; ++i)
+      field(centre, 0) +=
+          0.25 * field(model_->node_map.mesh_node(model_->numbering.thin()[thin].nodes[i]), 0);
   }
   out.temperature = fmt::format("temperature_{}", step);
   model_->deck.mesh.fields[out.temperature] = std::move(field);

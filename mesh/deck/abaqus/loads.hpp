@@ -55,6 +55,8 @@ class Loads {
   void add_acceleration(size_t use, const Fields& fields, const Eigen::Vector3d& a,
                         StepNumber step);
   void read_element_load(size_t use, const Fields& fields, double factor, StepNumber step);
+  void add_shell_pressure(size_t use, const Fields& fields, double factor, StepNumber step);
+  std::vector<bool> covered_by(size_t use, const Fields& fields) const;
   void add_rotation(size_t use, const Fields& fields, double factor, StepNumber step);
   void list_pressures(Step& out);
   void list_rotations(Step& out) const;

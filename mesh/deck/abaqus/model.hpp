@@ -17,8 +17,22 @@
 #include "mesh/deck/deck.hpp"
 #include "mesh/deck/ignore.hpp"
 #include "mesh/deck/refusals.hpp"
+#include "mesh/deck/shells.hpp"
 
 namespace clatter::mesh::deck::abaqus {
+
+/// The elements of two dimensions that are shells.
+struct ShellParts {
+  std::vector<int32_t> section_of;        // by thin element: one of *SHELL SECTION; -1: no shell
+  std::vector<int32_t> regions;           // of each section, index into Mesh::regions; -1: refused
+  std::map<int32_t, NodeIndex> centres;   // by thin element: the node that one of eight nodes gets
+  std::vector<ShellHinge> hinges;         // those on nodes of solids
+
+  int32_t section(int32_t thin) const {
+    return thin < 0 || thin >= std::ssize(section_of) ? -1
+                                                      : section_of[static_cast<size_t>(thin)];
+  }
+};
 
 /// The Deck being built.
 struct Model {
@@ -42,6 +56,19 @@ struct Model {
   std::vector<int32_t> region_of_cell;          // index into Mesh::regions
   int64_t faces = 0;                            // of all surfaces
   std::vector<BoltCut> cuts;                    // of *PRE-TENSION SECTION
+  ShellParts shells;
+
+  /// Whether an element is a shell beside the solids.
+  bool is_shell(int32_t element) const { return shells.section(thin_row(element)) >= 0; }
+  /// Index into Mesh::regions of a cell or shell; -1 for other elements.
+  int32_t region_of(int32_t element) const {
+    if (element < numbering.cells()) return region_of_cell[static_cast<size_t>(element)];
+    const int32_t section = shells.section(thin_row(element));
+    return section < 0 ? -1 : shells.regions[static_cast<size_t>(section)];
+  }
+
+ private:
+  int32_t thin_row(int32_t element) const { return element - numbering.first_thin(); }
 };
 
 /// Calls body(use, card) for each card with one of those keys, use by use, in the order of the
@@ -66,8 +93,18 @@ void for_each_card(const Model& model, std::initializer_list<std::string_view> k
 void build_materials(Model& model);
 /// *ORIENTATION -> Deck::systems.
 void build_systems(Model& model);
-/// Cells, nodes, regions. Nodes without cells get no node index yet.
+/// Cells, shells, nodes, regions. Nodes without cells get no node index yet.
 void build_mesh(Model& model);
+/// Elements with a *SHELL SECTION that have a corner on no solid -> Model::shells.
+void find_shells(Model& model);
+/// The nodes in the middle of shells of eight nodes, and which nodes have rotations.
+void add_shell_nodes(Model& model);
+/// Shells with their sections -> Mesh::shells, regions, Deck::shells.
+void build_shells(Model& model);
+/// Sides of a shell as CellFaceId: its own, and the other one.
+inline constexpr int32_t kSpos = 0, kSneg = 1;
+/// The linear faces of a side of a shell.
+void add_shell_faces(const Model& model, CellFaceId id, SurfaceBuilder& surface);
 /// *SOLID SECTION -> regions of the mesh and of the deck, Model::region_of_cell. A part of a region
 /// that rotates or has *NONSTRUCTURAL MASS becomes a region of its own.
 void build_regions(Model& model);

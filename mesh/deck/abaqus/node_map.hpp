@@ -33,6 +33,14 @@ class NodeMap {
   /// The mesh node of `row` in a cell.
   int32_t mesh_node_of(int32_t cell, int32_t row) const;
   bool is_point(NodeIndex node_index) const;
+  /// Which mesh nodes have rotations: those of shells.
+  void set_turning(std::vector<bool> turns) { turns_ = std::move(turns); }
+  /// True for points and nodes of shells.
+  bool turns(NodeIndex node_index) const {
+    return is_point(node_index) || turns_[static_cast<size_t>(node_index)];
+  }
+  /// True for a row of a mesh node without rotations.
+  bool is_of_solids(int32_t row) const { return mesh_node(row) != kNone && !turns(mesh_node(row)); }
   /// A point that moves with a mesh node and has rotations as well.
   NodeIndex point_upon(int32_t row);
 
@@ -52,6 +60,7 @@ class NodeMap {
   const Numbering& numbering_;
   Deck& deck_;
   std::vector<int32_t> mesh_node_;
+  std::vector<bool> turns_;  // by mesh node
   std::map<std::pair<int32_t, int32_t>, int32_t> copies_;  // by cell and row
   std::map<int32_t, NodeIndex> point_of_;                  // by row; also points on mesh nodes
   std::map<int32_t, NodeIndex> rotation_of_;               // by row

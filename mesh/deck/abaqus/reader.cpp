@@ -45,6 +45,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   finish_bolts(model);
   build_sets(model);
   build_cyclic(model);
+  refuse_hinges(model.deck, model.shells.hinges, refusals);
   refusals.raise();
   model.deck.ignored = ignore.counted();
   model.deck.passed = refusals.contents().passed_line();

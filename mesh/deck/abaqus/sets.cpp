@@ -191,7 +191,7 @@ std::vector<int32_t> Sets::elements_at(const Fields& fields, size_t i, size_t us
 
 std::vector<int32_t> Sets::elements_or_all(const Fields& fields, size_t i, size_t use) {
   if (!fields.blank(i)) return elements_at(fields, i, use);
-  std::vector<int32_t> all(static_cast<size_t>(numbering_.cells()));
+  std::vector<int32_t> all(static_cast<size_t>(numbering_.elements()));
   std::iota(all.begin(), all.end(), 0);
   return all;
 }

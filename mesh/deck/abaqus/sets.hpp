@@ -27,7 +27,7 @@ class Sets {
   /// The members of field `i`: a number or the name of a set.
   std::vector<int32_t> nodes_at(const Fields& fields, size_t i, size_t use);
   std::vector<int32_t> elements_at(const Fields& fields, size_t i, size_t use);
-  /// The same; all cells of the model where the field is empty.
+  /// The same; all elements of the model where the field is empty.
   std::vector<int32_t> elements_or_all(const Fields& fields, size_t i, size_t use);
   /// One node: its number, or the name of a set of one node.
   int32_t node_at(const Fields& fields, size_t i, size_t use);

@@ -31,7 +31,7 @@ class Bush {
     const Matrix3d axes = axes_of();
     const Vector3d centre = centre_of();
     const bool turns = std::all_of(ends_.begin(), ends_.end(),
-                                   [&](NodeIndex end) { return model_.node_map.is_point(end); });
+                                   [&](NodeIndex end) { return model_.node_map.turns(end); });
     bool left_out = false;
     for (int k = 0; k < 6; ++k) {
       const double stiffness = stiffness_[k];
@@ -99,7 +99,7 @@ class Bush {
     const double sign = ends_.size() == 2 && end == 0 ? -1.0 : 1.0;
     const int base = k < 3 ? 0 : 3;
     for (int d = 0; d < 3; ++d) add_term(spring.terms, ends_[end], base + d, sign * t[d]);
-    if (k >= 3 || raw_.is_gap || !model_.node_map.is_point(ends_[end])) return;
+    if (k >= 3 || raw_.is_gap || !model_.node_map.turns(ends_[end])) return;
     const Vector3d lever = (centre - at_[end]).cross(t);
     for (int d = 0; d < 3; ++d) add_term(spring.terms, ends_[end], 3 + d, sign * lever[d]);
   }

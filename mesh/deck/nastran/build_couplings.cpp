@@ -49,9 +49,9 @@ void add_rigid(Model& model, const RawRigid& raw) {
                                                 raw.name, raw.reference));
     }
     const bool basic = model.node_map.displacement_system(node_index) == 0;
-    if (basic || frame_free(raw.dofs, model.node_map.is_point(node_index))) {
+    if (basic || frame_free(raw.dofs, model.node_map.turns(node_index))) {
       rigid.dependents.push_back(node_index);
-    } else if (!model.node_map.is_point(rigid.reference)) {
+    } else if (!model.node_map.turns(rigid.reference)) {
       model.source.fail(raw.origin,
                         fmt::format("{}: some directions of a displacement system (CD) and "
                                     "a node of solids as reference exclude each other",
@@ -65,11 +65,11 @@ void add_rigid(Model& model, const RawRigid& raw) {
 
 // Adds a term with rotations: nodes of solids have displacements alone. Returns how many they are.
 size_t split_term(Model& model, const Distributing::Term& term, Distributing& rbe3) {
-  Distributing::Term points{term.weight, term.dofs, {}};
+  Distributing::Term turning{term.weight, term.dofs, {}};
   Distributing::Term nodes{term.weight, static_cast<DofMask>(term.dofs & kTranslations), {}};
   for (const NodeIndex index : term.node_indices)
-    (model.node_map.is_point(index) ? points : nodes).node_indices.push_back(index);
-  for (const Distributing::Term& one : {points, nodes})
+    (model.node_map.turns(index) ? turning : nodes).node_indices.push_back(index);
+  for (const Distributing::Term& one : {turning, nodes})
     if (!one.node_indices.empty() && one.dofs != 0) rbe3.terms.push_back(one);
   return nodes.node_indices.size();
 }

@@ -89,7 +89,7 @@ void add_mass(Model& model, const RawMass& raw, const Neighbours& neighbours) {
   if (!mass.offset.allFinite() || !mass.inertia.allFinite() || !std::isfinite(mass.mass)) {
     model.source.fail(raw.origin, "CONM2: its numbers are too large");
   }
-  if (model.node_map.is_point(mass.node_index) ||
+  if (model.node_map.turns(mass.node_index) ||
       (mass.offset.isZero(0.0) && mass.inertia.isZero(0.0))) {
     model.deck.masses.push_back(mass);
   } else {
@@ -105,7 +105,7 @@ void build_masses(Model& model) {
     const int32_t row = needs_rotations(raw) ? model.grids.find(raw.grid) : -1;
     const NodeIndex index =
         row < 0 ? NodeMap::kNone : model.node_map.find(static_cast<size_t>(row));
-    if (index != NodeMap::kNone && !model.node_map.is_point(index)) neighbours.request(index);
+    if (index != NodeMap::kNone && !model.node_map.turns(index)) neighbours.request(index);
   }
   neighbours.find();
   for (const RawMass& raw : model.raw.masses) {

@@ -36,6 +36,23 @@ Material isotropic(const Model& model, int32_t id, const RawMaterial& raw) {
 
 }  // namespace
 
+Material material_of(const Model& model, int32_t id) {
+  const RawMaterial& raw = model.raw.materials.at(id);
+  Material material;
+  if (raw.kind == Material::Kind::kIsotropic) {
+    material = isotropic(model, id, raw);
+  } else {
+    material.constants = raw.constants;
+  }
+  material.kind = raw.kind;
+  material.name = fmt::format("mat_{}", id);
+  material.where = model.source.where(raw.origin);
+  material.density = raw.density * model.raw.control.mass_factor;
+  material.expansion = raw.expansion;
+  material.reference_temperature = raw.reference_temperature;
+  return material;
+}
+
 std::string use_material(Model& model, int32_t id, Origin origin) {
   const auto at = model.raw.materials.find(id);
   if (at == model.raw.materials.end()) {
@@ -48,22 +65,8 @@ std::string use_material(Model& model, int32_t id, Origin origin) {
     if (model.raw.materials.empty()) return {};
     model.source.fail(origin, fmt::format("PSOLID: found no material {}", id));
   }
-  const RawMaterial& raw = at->second;
   const std::string name = fmt::format("mat_{}", id);
-  if (model.deck.materials.contains(name)) return name;
-  Material material;
-  if (raw.kind == Material::Kind::kIsotropic) {
-    material = isotropic(model, id, raw);
-  } else {
-    material.constants = raw.constants;
-  }
-  material.kind = raw.kind;
-  material.name = name;
-  material.where = model.source.where(raw.origin);
-  material.density = raw.density * model.raw.control.mass_factor;
-  material.expansion = raw.expansion;
-  material.reference_temperature = raw.reference_temperature;
-  model.deck.materials[name] = material;
+  if (!model.deck.materials.contains(name)) model.deck.materials[name] = material_of(model, id);
   return name;
 }
 

@@ -39,7 +39,7 @@ void add_mass_matrix(Model& model, const RawMassMatrix& raw) {
     if (M(0, 0) != 0.0) model.deck.masses.push_back({where, node_index, M(0, 0)});
     return;
   }
-  const bool turns = model.node_map.is_point(node_index);
+  const bool turns = model.node_map.turns(node_index);
   if (!turns && !M.bottomRows<3>().isZero(0.0))
     model.source.fail(raw.origin,
                       fmt::format("CONM1: found an inertia or offset on node {} of solids, which "
@@ -86,7 +86,7 @@ class Direct {
     const int32_t grid = entry.grid[end];
     const NodeIndex node_index = model_.require(grid, raw_.origin);
     const int direction = model_.direction_at(grid, entry.direction[end], raw_.origin);
-    if (direction >= 3 && !model_.node_map.is_point(node_index))
+    if (direction >= 3 && !model_.node_map.turns(node_index))
       fail(fmt::format("found a rotation of node {} of solids, which has none", grid));
     const bool turned = model_.node_map.displacement_system(node_index) != 0;
     const int first = turned ? direction / 3 * 3 : direction;

@@ -50,6 +50,18 @@ std::vector<int32_t> find_rows(Model& model) {
   return mesh_node;
 }
 
+// Nodes of shells have rotations.
+void let_shells_turn(Model& model) {
+  std::vector<bool> turns(static_cast<size_t>(model.node_map.node_count()), false);
+  for (const RawSkin& shell : model.raw.shell_cells) {
+    const ShellFace face = face_of_shell(model, shell);
+    for (int i = 0; i < traits(face.type).nodes; ++i)
+      turns[static_cast<size_t>(face.nodes[static_cast<size_t>(i)])] = true;
+    if (face.centre >= 0) turns[static_cast<size_t>(face.centre)] = true;
+  }
+  model.node_map.set_turning(std::move(turns));
+}
+
 // Faces of loads are looked up in the cells as they are afterwards.
 void repair(Model& model) {
   const std::string& deck = model.source.files().front();
@@ -63,7 +75,7 @@ void repair(Model& model) {
 
 }  // namespace
 
-void build_mesh(Model& model) {
+void build_mesh(Model& model, const Ignore& ignore) {
   check_cell_numbers(model);
   std::vector<int32_t> properties;  // of the regions, ascending
   std::set<int32_t> found;
@@ -72,6 +84,7 @@ void build_mesh(Model& model) {
   build_regions(model, properties);
   std::vector<int32_t> mesh_node = find_rows(model);
   const std::vector<int32_t> hanging_rows = complete_cells(model, mesh_node);
+  find_shells(model, ignore, mesh_node);
 
   const Grids& grids = model.raw.grids;
   Mesh& mesh = model.deck.mesh;
@@ -102,6 +115,7 @@ void build_mesh(Model& model) {
   for (const int32_t row : hanging_rows)
     mesh.node_sets[kHangingMidSideNodes].push_back(mesh_node[row]);
   model.node_map.set_mesh_nodes(std::move(mesh_node));
+  let_shells_turn(model);
   repair(model);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// CQUAD4, CTRIA3 and the like. Those on faces of solids (for loads, radiation, stresses) are
-// surfaces of the mesh; others are shells.
+// CQUAD4, CTRIA3 and the like with all corners on solids. Those on faces of solids (for loads,
+// radiation, stresses) are surfaces of the mesh.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::vector<SkinCell> cells_of(const Model& model) {
   return cells;
 }
 
-// A shell has stiffness, unless the deck is a mesh without properties. What hangs on grids of
+// Others have stiffness, unless the deck is a mesh without properties. What hangs on grids of
 // shells that the user ignores hangs on nothing.
 bool leave_out_shells(Model& model, Ignore& ignore, const Skins& skins) {
   const bool mere_mesh = model.raw.solids.empty() && model.raw.shells.empty();
@@ -44,10 +44,10 @@ bool leave_out_shells(Model& model, Ignore& ignore, const Skins& skins) {
     if (ignore.skips(kind, count.first) || mere_mesh) continue;
     refused = true;
     model.refusals.add(fmt::format(
-        "{}: card {} is not supported (no shells yet): {} of them are not the face of a solid; "
-        "ignore = [\"{}\"] leaves out their stiffness and mass: [[spring]], [[coupling]] and "
-        "[[point_mass]] of the recipe replace them",
-        model.source.where(count.second), kind, count.first, kind));
+        "{}: found {} {} whose corners all belong to solids and that are no outer face: nodes of "
+        "solids do not turn, so as shells they hang on hinges; ignore = [\"{}\"] leaves out their "
+        "stiffness and mass, nodes of their own with an RBE2 or RBE3 to the solid clamp them",
+        model.source.where(count.second), count.first, kind, kind));
   }
   return !refused;
 }
@@ -90,31 +90,6 @@ void build_skins(Model& model, Ignore& ignore) {
     }
   }
   std::sort(model.raw.lost_grids.begin(), model.raw.lost_grids.end());
-}
-
-std::vector<LoadedFace> faces_of_skins(Model& model, const RawSkinPressure& raw) {
-  const auto& skins = model.raw.skins;
-  if (!model.skins) {
-    std::vector<int32_t> ids;
-    for (const RawSkin& one : skins) ids.push_back(one.id);
-    model.skins = IdIndex(ids);
-  }
-  std::vector<LoadedFace> faces;
-  model.spend(model.skins->effort(raw.cells.first, raw.cells.last), raw.origin);
-  model.skins->for_each(raw.cells.first, raw.cells.last, raw.cells.step, [&](int32_t row) {
-    const RawSkin& one = skins[row];
-    const auto corners = std::span(one.grids).first(static_cast<size_t>(traits(one.type).corners));
-    model.spend(16, raw.origin);
-    if (const auto face = boundary_face(model, corners, raw.origin)) faces.push_back(*face);
-  });
-  if (faces.empty())
-    model.source.fail(
-        raw.origin,
-        model.cells.find(raw.cells.first) >= 0
-            ? fmt::format("PLOAD4: G1 of solid {}: found nothing, expected a grid", raw.cells.first)
-            : fmt::format("found no two-dimensional cell {} on a face of a solid",
-                          raw.cells.first));
-  return faces;
 }
 
 }  // namespace clatter::mesh::deck::nastran

@@ -24,7 +24,7 @@ std::vector<Equation::Term> elongation_of(Model& model, const RawSpring& raw) {
     const int32_t grid = raw.ends[end].grid;
     const NodeIndex node_index = model.require(grid, raw.origin);
     const int direction = model.direction_at(grid, raw.ends[end].direction, raw.origin);
-    if (direction >= 3 && !model.node_map.is_point(node_index)) {
+    if (direction >= 3 && !model.node_map.turns(node_index)) {
       model.source.fail(raw.origin,
                         fmt::format("spring: found a rotation of node {} of solids, which "
                                     "has none",

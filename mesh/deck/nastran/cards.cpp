@@ -14,8 +14,10 @@ constexpr const char* kSystem = "coordinate system";
 constexpr const char* kBeam = "bar, beam or truss between two grids";
 constexpr const char* kBeamSection = "section and material of bars";
 constexpr const char* kCell = "cells, with any mid-side nodes or none";
-constexpr const char* kSkin = "surface where it is a face of a solid, else refused";
-constexpr const char* kShell = "of skins: their stiffness and mass are left out with a line";
+constexpr const char* kSkin = "shell; where it is a face of a solid, a surface";
+constexpr const char* kQuadraticSkin = "four shells; where it is a face of a solid, a surface";
+constexpr const char* kLayers =
+    "refused where shells have it; of faces of solids left out with a line";
 
 // Why cards are passed over.
 constexpr const char* kDampers = "dampers";
@@ -33,7 +35,9 @@ constexpr const char* kSuper = "of the reduction in Nastran";
 constexpr const char* kBars =
     "no curved bars; ignore = [\"{0}\"] drops their stiffness and mass: CBAR along chords replace "
     "them";
-constexpr const char* kShells = "no shells yet; ignore = [\"{0}\"] drops their stiffness and mass";
+constexpr const char* kShearPanels =
+    "no shear panels; ignore = [\"{0}\"] drops their stiffness and mass: a CQUAD4 with a thin PSHELL "
+    "and its stringers as CBAR replace them";
 constexpr const char* kBarLoads =
     "loads along bars are not read; ignore = [\"{0}\"] drops them: FORCE and MOMENT on their grids "
     "replace them";
@@ -136,17 +140,17 @@ constexpr std::array kRoles = {
     reads("CPYRA", read_cell, 16, kCell),
     reads("CPYRAM", read_cell, 16, kCell),
     reads("CQUAD4", read_skin, 16, kSkin),
-    reads("CQUAD8", read_skin, 24, kSkin),
+    reads("CQUAD8", read_skin, 24, kQuadraticSkin),
     reads("CQUADR", read_skin, 16, kSkin),
     Role{"CROD", Fate::kRead, read_crod, 8, 2, 2, kBeam},
     refuses("CSEAM", kWelds, 0, 0),
     reads("CSET", read_aset, 8, kRetained),
     reads("CSET1", read_aset1, 0, kRetained),
-    refuses("CSHEAR", kShells, 2, 4),
+    refuses("CSHEAR", kShearPanels, 2, 4),
     refuses("CSUPER", kOthers, 0, 0),
     reads("CTETRA", read_cell, 16, kCell),
     reads("CTRIA3", read_skin, 16, kSkin),
-    reads("CTRIA6", read_skin, 16, kSkin),
+    reads("CTRIA6", read_skin, 16, kQuadraticSkin),
     reads("CTRIAR", read_skin, 16, kSkin),
     Role{"CTUBE", Fate::kRead, read_crod, 8, 2, 2, kBeam},
     passes("CVISC", kDampers),
@@ -206,14 +210,14 @@ constexpr std::array kRoles = {
     passes("LSEQ", kDynamic),
     reads("MAT1", read_mat1, 16, "isotropic material; damping and stress limits are not read"),
     reads("MAT10", read_other_material, 0, "of a fluid, whose cells are refused"),
-    reads("MAT2", read_other_material, 0, "named where a solid has it"),
-    reads("MAT3", read_other_material, 0, "named where a solid has it"),
+    reads("MAT2", read_other_material, 0, "named where a solid or shell has it"),
+    reads("MAT3", read_other_material, 0, "named where a solid or shell has it"),
     passes("MAT4", kUnused),
     passes("MAT5", kUnused),
-    reads("MAT8", read_other_material, 0, "named where a solid has it"),
+    reads("MAT8", read_other_material, 0, "named where a solid or shell has it"),
     reads("MAT9", read_mat9, 32, "anisotropic material"),
-    reads("MATHE", read_other_material, 0, "named where a solid has it"),
-    reads("MATHP", read_other_material, 0, "named where a solid has it"),
+    reads("MATHE", read_other_material, 0, "named where a solid or shell has it"),
+    reads("MATHP", read_other_material, 0, "named where a solid or shell has it"),
     passes("MATS1", kNonlinear),
     passes("MATT1", kTemperature),
     passes("MATT2", kUnused),
@@ -247,9 +251,9 @@ constexpr std::array kRoles = {
     passes("PBEND", kUnused),
     reads("PBUSH", read_pbush, 0, "stiffness of bushes"),
     passes("PBUSHT", kDynamic),
-    reads("PCOMP", read_pshell, 0, kShell),
-    reads("PCOMPG", read_pshell, 0, kShell),
-    reads("PCOMPS", read_other_property, 0, "named where a solid has it"),
+    reads("PCOMP", read_pshell, 0, kLayers),
+    reads("PCOMPG", read_pshell, 0, kLayers),
+    reads("PCOMPS", read_other_property, 0, "named where a solid or shell has it"),
     passes("PDAMP", kDampers),
     passes("PDAMP5", kDampers),
     passes("PDAMPT", kDampers),
@@ -257,19 +261,20 @@ constexpr std::array kRoles = {
     passes("PELAST", kDynamic),
     passes("PFAST", kUnused),
     reads("PGAP", read_pgap, 0, "stiffness of gaps"),
-    reads("PLOAD", read_pload, 8, "pressure on a face of solids"),
+    reads("PLOAD", read_pload, 8, "pressure on a face of solids or shells"),
     refuses("PLOAD1", kBarLoads, 0, 0),
-    reads("PLOAD2", read_pload2, 0, "pressure on two-dimensional cells on solids"),
+    reads("PLOAD2", read_pload2, 0, "pressure on shells, or two-dimensional cells on solids"),
     reads("PLOAD4", read_pload4, 16, "pressure on a face, normal or along a vector"),
     passes("PLOTEL", kOutput),
     passes("PLOTEL3", kOutput),
     passes("PLOTEL4", kOutput),
-    reads("PLPLANE", read_other_property, 8, "named where a solid has it"),
-    reads("PLSOLID", read_other_property, 8, "named where a solid has it"),
+    reads("PLPLANE", read_other_property, 8, "named where a solid or shell has it"),
+    reads("PLSOLID", read_other_property, 8, "named where a solid or shell has it"),
     reads("PMASS", read_pmass, 8, "mass of CMASS1 and CMASS3"),
     reads("PROD", read_prod, 8, kBeamSection),
     passes("PSHEAR", kUnused),
-    reads("PSHELL", read_pshell, 16, kShell),
+    reads("PSHELL", read_pshell, 16,
+          "section of shells with its MAT1; of faces of solids left out with a line"),
     reads("PSOLID", read_psolid, 8, "region with its material"),
     reads("PTUBE", read_ptube, 8, kBeamSection),
     passes("PVISC", kDampers),

@@ -34,7 +34,7 @@ std::vector<DependentRow> dependent_rows(const Model& model, NodeIndex dependent
                                                  model.node_map.position(dependent), origin);
   std::vector<DependentRow> out;
   for (const int base : {0, 3}) {
-    if (base == 3 && !model.node_map.is_point(dependent)) break;
+    if (base == 3 && !model.node_map.turns(dependent)) break;
     std::vector<Vector3d> rows;
     for (int k = 0; k < 3; ++k) {
       if (dofs >> (base + k) & 1) rows.push_back(axes.col(k));

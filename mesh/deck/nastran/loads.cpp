@@ -47,15 +47,18 @@ void Loads::build_surfaces() {
         continue;
       }
       const LoadedFace face = face_of_cell(model_, pressure);
-      if (!pressure.varies() && !pressure.along_vector()) {
+      if (pressure.is_plain())
         add(pressure, face, pressure.values[0]);
-        continue;
-      }
-      push(pressure, face, 1.0);
+      else
+        push(pressure, face, 1.0);
     }
     for (const RawSkinPressure& raw : set.on_skins)
-      for (const LoadedFace& face : faces_of_skins(model_, raw))
-        add({.origin = raw.origin}, face, face.outward ? -raw.value : raw.value);
+      for (const auto& [pressure, face] : loads_on_skins(model_, raw)) {
+        if (pressure.is_plain())
+          add(pressure, face, face.outward ? -pressure.values[0] : pressure.values[0]);
+        else
+          push(pressure, face, pressure.along_vector() ? 1.0 : -1.0);
+      }
     name_surfaces(id, surfaces);
   }
 }
@@ -166,7 +169,7 @@ void Loads::list_force(Step& step, const RawForce& raw, double factor) {
     model_.source.fail(
         raw.origin, fmt::format("{}: grid {} belongs to no solid and no coupling", card, raw.grid));
   }
-  if (raw.moment && !model_.node_map.is_point(node_index)) {
+  if (raw.moment && !model_.node_map.turns(node_index)) {
     model_.source.fail(raw.origin,
                        fmt::format("MOMENT: node {} of solids has no rotations", raw.grid));
   }

@@ -172,7 +172,8 @@ void pass_damping(Model& model) {
 }
 
 void choose_mass(Model& model) {
-  const bool analysis = !model.raw.solids.empty() && !model.raw.materials.empty();  // no mere mesh
+  const bool has_properties = !model.raw.solids.empty() || !model.raw.shell_cells.empty();
+  const bool analysis = has_properties && !model.raw.materials.empty();  // no mere mesh
   if (analysis && !model.raw.control.coupled_mass) model.deck.mass = MassForm::kLumped;
 }
 

@@ -11,6 +11,7 @@
 #include "mesh/deck/nastran/raw_deck.hpp"
 #include "mesh/deck/nastran/systems.hpp"
 #include "mesh/deck/refusals.hpp"
+#include "mesh/deck/shells.hpp"
 
 namespace clatter::mesh::deck::nastran {
 
@@ -53,6 +54,8 @@ class Model {
   NodeMap node_map;              // empty until the mesh is built
   IdIndex cells;                 // numbered across all blocks of the mesh
   std::optional<IdIndex> skins;  // row of a two-dimensional cell in raw.skins; made when needed
+  std::optional<IdIndex> shells;  // the same of raw.shell_cells
+  std::vector<ShellHinge> hinges;  // shells on nodes of solids
   int64_t lost_loads = 0;        // forces on grids of ignored cells
   std::map<NodeIndex, NodeIndex> hung;  // point of a mass beside a node of solids -> that node
 
@@ -67,7 +70,15 @@ class Model {
 /// Leaves out the cells of fluids if the user ignores them; else refuses them.
 void leave_out_fluids(Model& model, Ignore& ignore);
 /// Cells, nodes, regions. Grids without cells get no node index yet.
-void build_mesh(Model& model);
+void build_mesh(Model& model, const Ignore& ignore);
+/// Moves those two-dimensional cells that are shells, which have a corner on no solid, to
+/// raw.shell_cells and marks their rows in `mesh_node`; adds a row for the centre of those of eight
+/// grids.
+void find_shells(Model& model, const Ignore& ignore, std::vector<int32_t>& mesh_node);
+/// raw.shell_cells with their PSHELL -> Mesh::shells, regions, Deck::shells.
+void build_shells(Model& model);
+/// Node indices of a shell.
+ShellFace face_of_shell(const Model& model, const RawSkin& raw);
 /// Adds the mid-side nodes that cards omit from a quadratic cell to the grids and to `mesh_node`
 /// (of each row, NodeMap::kNone or not); needs the rows of cells. Returns their rows.
 std::vector<int32_t> complete_cells(Model& model, std::vector<int32_t>& mesh_node);
@@ -76,6 +87,8 @@ void build_regions(Model& model, const std::vector<int32_t>& properties);
 /// MAT1, MAT9 -> Deck::materials. Name of the material; empty when the deck has none at all.
 /// InputError at `origin` if it is missing.
 std::string use_material(Model& model, int32_t id, Origin origin);
+/// The same material, which raw.materials has, for properties beside regions.
+Material material_of(const Model& model, int32_t id);
 /// RBE2, RBE3 and what is the same: their grids get node indices.
 void build_couplings(Model& model);
 /// RBAR, RBE1 with independent DoFs at several grids, RROD -> equations.
@@ -94,8 +107,8 @@ void build_bars(Model& model);
 void build_matrices(Model& model);
 /// BGSET -> ties.
 void build_glue(Model& model);
-/// CQUAD4 and the like: faces of solids -> Mesh::surfaces; others are refused, or left out by the
-/// user.
+/// CQUAD4 and the like that are no shells: faces of solids -> Mesh::surfaces; others are refused, or
+/// left out by the user.
 void build_skins(Model& model, Ignore& ignore);
 /// What hangs on grids of ignored cells alone: refused together, or dropped by the user.
 void drop_loose(Model& model, Ignore& ignore);
@@ -133,8 +146,13 @@ LoadedFace face_of_grids(Model& model, const RawPressure& raw);
 /// The face of a solid on the boundary with these corners, if there is one.
 std::optional<LoadedFace> boundary_face(Model& model, std::span<const int32_t> grids,
                                         Origin origin);
-/// The faces of solids on which two-dimensional cells of these numbers lie.
-std::vector<LoadedFace> faces_of_skins(Model& model, const RawSkinPressure& raw);
+/// A pressure on a face; on one of a shell along its normal.
+struct SkinLoad {
+  RawPressure pressure;
+  LoadedFace face;
+};
+/// Shells of these numbers, and faces of solids on which two-dimensional cells of these numbers lie.
+std::vector<SkinLoad> loads_on_skins(Model& model, const RawSkinPressure& raw);
 /// Forces on the nodes of a pressure that varies over a face or acts along a vector.
 std::vector<Step::NodalForce> forces_on_face(Model& model, const RawPressure& raw,
                                              const LoadedFace& face);

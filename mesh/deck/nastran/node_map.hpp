@@ -33,6 +33,12 @@ class NodeMap {
   /// Nodes of the mesh.
   NodeIndex node_count() const { return node_count_; }
   bool is_point(NodeIndex node_index) const { return node_index >= node_count_; }
+  /// Which mesh nodes have rotations: those of shells.
+  void set_turning(std::vector<bool> turns) { turns_ = std::move(turns); }
+  /// True for points and nodes of shells.
+  bool turns(NodeIndex node_index) const {
+    return is_point(node_index) || turns_[static_cast<size_t>(node_index)];
+  }
   /// Position of a mesh node or a point.
   Eigen::Vector3d position(NodeIndex node_index) const;
   /// Number of its displacement system, 0: basic.
@@ -45,6 +51,7 @@ class NodeMap {
   Deck& deck_;
   std::vector<NodeIndex> index_of_row_;
   std::vector<int32_t> row_of_index_;
+  std::vector<bool> turns_;  // by mesh node
   NodeIndex node_count_ = 0;
 };
 

@@ -73,13 +73,24 @@ struct RawSkin {
   int32_t id = 0, property = 0;
   Origin origin = 0;
   std::array<int32_t, kMaxFaceNodes> grids{};
+  int32_t missing = 0;                // mid-side grids, where it has others and is linear
+  double offset = 0.0;                // ZOFFS
+  bool is_relative = false;           // TFLAG: thickness over that of the property
+  std::array<double, 4> thickness{};  // at the corners; NaN: that of the property
+  int32_t centre = kNoRow;            // row of the node that a shell of eight grids gets
 };
 
 struct RawShell {  // PSHELL, PCOMP, PCOMPG
   Origin origin = 0;
   std::string card;
-  int32_t material = 0;    // 0: none
-  double thickness = 0.0;  // 0: not known
+  std::string refusal;        // why no shell can have it; "" for none
+  int32_t material = 0;       // 0: none; also of the next two
+  int32_t bending = 0;        // MID2
+  int32_t shear = 0;          // MID3
+  double thickness = 0.0;     // 0: not known
+  double inertia = 1.0;       // 12 I / T^3
+  double shear_ratio = 0.0;   // TS / T
+  double area_mass = 0.0;     // NSM
 };
 
 struct RawSolid {  // PSOLID
@@ -258,6 +269,7 @@ struct RawPressure {  // PLOAD4; PLOAD, PLOAD2
     return values[1] != values[0] || values[2] != values[0] || values[3] != values[0];
   }
   bool along_vector() const { return direction != std::array<double, 3>{}; }
+  bool is_plain() const { return !varies() && !along_vector(); }
 };
 
 struct RawGravity {
@@ -284,8 +296,7 @@ struct RawRotation {  // RFORCE
 };
 
 struct RawSkinPressure {  // PLOAD2; PLOAD4 of two-dimensional cells
-  Origin origin = 0;
-  double value = 0.0;
+  RawPressure pressure;
   IdRange cells;
 };
 
@@ -341,6 +352,7 @@ struct RawDeck {
   std::map<int32_t, RawSystem> systems;
   std::map<int32_t, RawSolid> solids;
   std::vector<RawSkin> skins;
+  std::vector<RawSkin> shell_cells;  // those of `skins` that find_shells() takes out
   std::map<int32_t, RawShell> shells;
   std::map<int32_t, RawMaterial> materials;
   std::vector<RawRigid> rigid;

@@ -91,9 +91,10 @@ void read_pload(const Card& card, RawDeck& raw) {
 // SID P EID1 EID2 ... of two-dimensional cells.
 void read_pload2(const Card& card, RawDeck& raw) {
   LoadSet& set = load_set(card, raw);
-  const double value = card.number(1, "P");
-  for (const IdRange& range : card.ids(2, "EID"))
-    set.on_skins.push_back({card.origin(), value, range});
+  RawPressure pressure;
+  pressure.origin = card.origin();
+  pressure.values.fill(card.number(1, "P"));
+  for (const IdRange& range : card.ids(2, "EID")) set.on_skins.push_back({pressure, range});
 }
 
 // EID THRU EID in fields 8 and 9: two-dimensional cells, along their own normals.
@@ -113,12 +114,8 @@ void read_pload4(const Card& card, RawDeck& raw) {
   card.at_most(14);
   LoadSet& set = load_set(card, raw);
   if (is_on_skins(card)) {
-    if (pressure.varies() || pressure.along_vector())
-      card.fail(3,
-                "found a load along a vector or one that varies on a two-dimensional cell, "
-                "expected one pressure");
     const int32_t last = card.id_or(7, "EID2", pressure.cell);
-    set.on_skins.push_back({card.origin(), pressure.values[0], {pressure.cell, last, 1, true}});
+    set.on_skins.push_back({pressure, {pressure.cell, last, 1, true}});
     return;
   }
   pressure.g1 = card.id(6, "G1");

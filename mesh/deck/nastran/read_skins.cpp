@@ -1,41 +1,81 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shells and their properties, as far as skins of solids need them.
+// Two-dimensional cells, which are shells or faces of solids, and their properties.
 #include <algorithm>
+#include <array>
+#include <limits>
 
 #include "mesh/deck/nastran/cards.hpp"
 
 namespace clatter::mesh::deck::nastran {
 namespace {
 
+/// Fields of a card: its grids begin at 2.
+struct SkinFields {
+  std::string_view card;
+  FaceType linear, type;
+  size_t offset, thickness, flag;  // ZOFFS, T1, TFLAG
+};
+
 constexpr size_t kFirstGrid = 2;
+constexpr std::array<SkinFields, 6> kSkinFields = {{
+    {"CQUAD4", FaceType::kQuad4, FaceType::kQuad4, 7, 10, 9},
+    {"CQUAD8", FaceType::kQuad4, FaceType::kQuad8, 15, 10, 16},
+    {"CQUADR", FaceType::kQuad4, FaceType::kQuad4, 7, 10, 9},
+    {"CTRIA3", FaceType::kTri3, FaceType::kTri3, 6, 10, 9},
+    {"CTRIA6", FaceType::kTri3, FaceType::kTri6, 9, 10, 13},
+    {"CTRIAR", FaceType::kTri3, FaceType::kTri3, 6, 10, 9},
+}};
 
 bool has_grid(const Card& card, size_t i) { return !card.blank(i) && card.text(i) != "0"; }
 
 // With all of its mid-side nodes quadratic, else linear.
-FaceType skin_type(const Card& card) {
-  const bool triangle = card.name().starts_with("CTRIA");
-  const bool quadratic = card.name().ends_with('6') || card.name().ends_with('8');
-  const FaceType linear = triangle ? FaceType::kTri3 : FaceType::kQuad4;
-  const FaceType full = triangle ? FaceType::kTri6 : FaceType::kQuad8;
-  if (!quadratic) return linear;
-  for (int i = traits(linear).nodes; i < traits(full).nodes; ++i) {
-    if (!has_grid(card, kFirstGrid + static_cast<size_t>(i))) return linear;
-  }
-  return full;
+void take_grids(const Card& card, const SkinFields& fields, RawSkin& skin) {
+  const int corners = traits(fields.linear).nodes, all = traits(fields.type).nodes;
+  for (int i = corners; i < all; ++i)
+    if (!has_grid(card, kFirstGrid + static_cast<size_t>(i))) ++skin.missing;
+  skin.type = skin.missing == 0 ? fields.type : fields.linear;
+  if (skin.missing == all - corners) skin.missing = 0;
+  for (size_t i = 0; i < static_cast<size_t>(traits(skin.type).nodes); ++i)
+    skin.grids[i] = card.id(kFirstGrid + i, "G");
+}
+
+void take_sheet(const Card& card, RawShell& shell) {
+  shell.material = card.blank(1) ? 0 : card.id(1, "MID1");
+  shell.thickness = card.number_or(2, "T", 0.0);
+  shell.bending = card.integer_or(3, "MID2", 0);
+  shell.inertia = card.number_or(4, "12I/T**3", 1.0);
+  shell.shear = card.integer_or(5, "MID3", 0);
+  shell.shear_ratio = card.number_or(6, "TS/T", 5.0 / 6.0);
+  shell.area_mass = card.number_or(7, "NSM", 0.0);
+  if (!card.blank(10))
+    shell.refusal = "MID4 joins stretching to bending, which is not read: ZOFFS of its cells or "
+                    "two sheets replace it";
+  else if (shell.material == 0)
+    shell.refusal = "MID1 is blank: a plate that nothing holds in its plane, expected a MAT1";
+  else if (shell.bending == -1)
+    shell.refusal = "MID2 is -1: plane strain is not read, expected MID2 = MID1 of a sheet";
+  else if (shell.bending == 0)
+    shell.refusal = "MID2 is blank: a membrane, whose grids nothing holds across it, expected "
+                    "MID2 = MID1 of a sheet";
 }
 
 }  // namespace
 
 void read_skin(const Card& card, RawDeck& raw) {
+  const SkinFields& fields = *std::ranges::find(kSkinFields, card.name(), &SkinFields::card);
   RawSkin skin;
   skin.kind = card.name();
   skin.origin = card.origin();
   skin.id = card.id(0, "EID");
   skin.property = card.id_or(1, "PID", skin.id);
-  skin.type = skin_type(card);
-  for (size_t i = 0; i < static_cast<size_t>(traits(skin.type).nodes); ++i) {
-    skin.grids[i] = card.id(kFirstGrid + i, "G");
-  }
+  take_grids(card, fields, skin);
+  skin.offset = card.number_or(fields.offset, "ZOFFS", 0.0);
+  const int32_t flag = card.integer_or(fields.flag, "TFLAG", 0);
+  if (flag != 0 && flag != 1) card.fail_expected(fields.flag, "TFLAG", "0 or 1");
+  skin.is_relative = flag == 1;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (size_t i = 0; i < static_cast<size_t>(traits(skin.type).corners); ++i)
+    skin.thickness[i] = card.number_or(fields.thickness + i, "T", kNone);
   raw.skins.push_back(std::move(skin));
 }
 
@@ -43,10 +83,11 @@ void read_pshell(const Card& card, RawDeck& raw) {
   RawShell shell;
   shell.origin = card.origin();
   shell.card = card.name();
-  if (shell.card == "PSHELL") {
-    shell.material = card.blank(1) ? 0 : card.id(1, "MID1");
-    shell.thickness = card.number_or(2, "T", 0.0);
-  }
+  if (shell.card == "PSHELL")
+    take_sheet(card, shell);
+  else
+    shell.refusal = "shells of layers are not read: a PSHELL with a MAT1 of their mean stiffness "
+                    "replaces them";
   if (!raw.shells.emplace(card.id(0, "PID"), shell).second) card.fail(0, "found a second one");
 }
 

@@ -22,7 +22,8 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   model.deck.mesh.name = name;
   model.deck.notes = std::move(notes);
   refusals.require([&] { leave_out_fluids(model, ignore); });
-  refusals.require([&] { build_mesh(model); });
+  refusals.require([&] { build_mesh(model, ignore); });
+  refusals.attempt([&] { build_shells(model); });
   refusals.attempt([&] { build_skins(model, ignore); });
   build_couplings(model);
   build_links(model);
@@ -39,6 +40,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   build_initial_temperature(model);
   build_steps(model);
   drop_loose(model, ignore);
+  refuse_hinges(model.deck, model.hinges, refusals);
   refusals.raise();
   model.deck.ignored = ignore.counted();
   count_unused(model);

@@ -21,7 +21,7 @@ void Supports::read(const RawHold& hold) {
 
 void Supports::add_node(NodeIndex node_index, DofMask dofs, double value, Origin origin) {
   if (node_index < 0) return;
-  if (!model_.node_map.is_point(node_index)) dofs = dofs & kTranslations;
+  if (!model_.node_map.turns(node_index)) dofs = dofs & kTranslations;
   if (dofs == 0) return;
   model_.spend(16, origin);
   held_.push_back({node_index, dofs, origin, value});

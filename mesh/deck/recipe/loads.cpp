@@ -133,12 +133,13 @@ class StepLoads {
       for (const Support& support : *of_step) all.push_back(&support);
     for (const Support* support : all) {
       if (support->value == 0.0) continue;
-      const NamedNodes named = names_.node_indices(support->node_indices, set_name(*support));
-      if (!named.node_set.empty())
-        prescribe(*support, support->dofs & kTranslations, {.node_set = named.node_set});
-      for (const std::string& point : named.points) {
-        prescribe(*support, support->dofs & kTranslations, {.point = point});
-        prescribe(*support, support->dofs & ~kTranslations, {.point = point});
+      for (const auto& [mask, some] :
+           names_.by_directions(support->node_indices, support->dofs)) {
+        const NamedNodes named = names_.node_indices(some, set_name(*support));
+        for (const int part : {mask & kTranslations, mask & ~kTranslations}) {
+          if (!named.node_set.empty()) prescribe(*support, part, {.node_set = named.node_set});
+          for (const std::string& point : named.points) prescribe(*support, part, {.point = point});
+        }
       }
     }
   }
@@ -179,16 +180,17 @@ class StepLoads {
 }  // namespace
 
 void add_support(const Support& support, RecipeNames& names, recipe::File& file) {
-  const NamedNodes named = names.node_indices(support.node_indices, set_name(support));
-  const auto add = [&](int dofs, const recipe::Selection& selection) {
-    file.supports.push_back({.source = keys::Source(support.where),
-                             .selection = selection,
-                             .directions = directions_of(static_cast<DofMask>(dofs)),
-                             .system = support.system});
-  };
-  const int shifts = support.dofs & kTranslations;
-  if (!named.node_set.empty() && shifts != 0) add(shifts, {.node_set = named.node_set});
-  for (const std::string& point : named.points) add(support.dofs, {.point = point});
+  for (const auto& [mask, some] : names.by_directions(support.node_indices, support.dofs)) {
+    const NamedNodes named = names.node_indices(some, set_name(support));
+    const auto add = [&, dofs = mask](const recipe::Selection& selection) {
+      file.supports.push_back({.source = keys::Source(support.where),
+                               .selection = selection,
+                               .directions = directions_of(dofs),
+                               .system = support.system});
+    };
+    if (!named.node_set.empty()) add({.node_set = named.node_set});
+    for (const std::string& point : named.points) add({.point = point});
+  }
 }
 
 void add_steps(Deck& deck, RecipeNames& names, Recipe& recipe) {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/error.hpp"
 #include "core/keys/member.hpp"
 
@@ -43,6 +45,15 @@ void set_integration(CellType type, Formulation formulation, recipe::RegionMater
   if (one_point) out.source.remark("hex8", "the deck has one point and hourglass control");
 }
 
+/// Shells may have the mass of their area alone.
+bool has_area_mass(const Deck& deck, const Region& region) {
+  const std::string& name = deck.mesh.regions[static_cast<size_t>(&region - deck.regions.data())];
+  return std::ranges::any_of(deck.shells, [&](const recipe::Shell& shell) {
+    return shell.section.area_mass > 0.0 &&
+           std::ranges::find(shell.regions, name) != shell.regions.end();
+  });
+}
+
 recipe::RegionMaterial material_of(const Deck& deck, const Region& region) {
   const auto found = deck.materials.find(region.material);
   if (found == deck.materials.end())
@@ -53,7 +64,10 @@ recipe::RegionMaterial material_of(const Deck& deck, const Region& region) {
   out.source = keys::Source(material.where);
   set_constants(material, out.material);
   out.material.material.density = material.density;
-  if (!(material.density > 0.0)) {
+  if (!(material.density > 0.0) && has_area_mass(deck, region)) {
+    out.material.material.density = 1e-9;  // beside it no digit of the area's mass changes
+    out.source.remark("rho", "the deck has none: its shells have the mass of their area");
+  } else if (!(material.density > 0.0)) {
     out.material.material.density = 1.0;
     out.source.remark("rho",
                       "the deck has none: mass and frequencies are meaningless with this one");

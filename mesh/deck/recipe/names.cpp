@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include "mesh/deck/node_sets.hpp"
+#include "mesh/deck/shell_joints.hpp"
 
 namespace clatter::mesh::deck {
 
 RecipeNames::RecipeNames(Deck& deck)
-    : deck_(deck), n_nodes_(static_cast<int32_t>(deck.mesh.nodes.rows())) {
+    : deck_(deck),
+      n_nodes_(static_cast<int32_t>(deck.mesh.nodes.rows())),
+      turns_(turning_nodes(deck.mesh)) {
   for (const auto& [name, nodes] : deck.mesh.node_sets) sets_.try_emplace(nodes, name);
 }
 
@@ -56,6 +59,17 @@ std::string RecipeNames::point_on_node(NodeIndex node_index) {
   const std::string name = fmt::format("on_node_{}", label(node_index));
   on_nodes_[name] = node(node_index);
   return name;
+}
+
+std::vector<std::pair<DofMask, std::vector<NodeIndex>>> RecipeNames::by_directions(
+    const std::vector<NodeIndex>& node_indices, DofMask mask) const {
+  std::vector<NodeIndex> turning, others;
+  for (const NodeIndex index : node_indices) (turns(index) ? turning : others).push_back(index);
+  std::vector<std::pair<DofMask, std::vector<NodeIndex>>> out;
+  const auto shifts = static_cast<DofMask>(mask & kTranslations);
+  if (!turning.empty() && mask != 0) out.emplace_back(mask, std::move(turning));
+  if (!others.empty() && shifts != 0) out.emplace_back(shifts, std::move(others));
+  return out;
 }
 
 std::vector<int> directions_of(DofMask mask) {

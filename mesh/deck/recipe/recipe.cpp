@@ -28,6 +28,7 @@ class RecipeMaker {
     }
     systems();
     add_materials(deck_, out_);
+    file_.shells = deck_.shells;
     couplings();
     if (deck_.mesh.node_sets.contains(kHangingMidSideNodes))
       file_.straight_edges.push_back(
@@ -139,7 +140,8 @@ class RecipeMaker {
       recipe::Term& term = terms.emplace_back();
       term.direction = one.direction;
       if (with_coefficients) term.coefficient = one.coefficient;
-      if (names_.is_point(one.node_index) || one.direction >= 3)
+      const bool has_direction = one.direction < 3 || names_.turns(one.node_index);
+      if (names_.is_point(one.node_index) || !has_direction)
         term.selection.point = names_.reference(one.node_index);
       else
         term.selection.node_set = names_.node(one.node_index);
@@ -199,18 +201,11 @@ class RecipeMaker {
     recipe::Nodes& kept = file_.nodes.emplace_back();
     kept.source.remark("", "boundary = [\"retained\"] of clatter-condense");
     kept.name = "retained";
-    for (const Support& set : deck_.retained) {
-      std::vector<NodeIndex> nodes, points;
-      for (const NodeIndex index : set.node_indices)
-        (names_.is_point(index) ? points : nodes).push_back(index);
-      for (const auto& [some, mask] :
-           {std::pair(nodes, static_cast<DofMask>(set.dofs & kTranslations)),
-            std::pair(points, set.dofs)}) {
-        if (some.empty() || mask == 0) continue;
+    for (const Support& set : deck_.retained)
+      for (const auto& [mask, some] : names_.by_directions(set.node_indices, set.dofs)) {
         kept.terms.push_back(members(some, "retained", mask));
         kept.terms.back().system = set.system;
       }
-    }
   }
 
   Deck& deck_;

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The outward side of shells, the same for neighbours.
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/mesh.hpp"
+
+namespace clatter::mesh {
+
+/// Turns linear shells so that the two cells of each edge that just two have agree on the outward
+/// side: of cells that hang together by such edges the fewer ones are turned, with their thickness
+/// and offset. Where no choice agrees (a Moebius strip) all of them keep their side.
+/// @param shells tri3 and quad4; offsets of regions are 0 or in ShellBlock::offset.
+/// @return how many cells were turned.
+int64_t orient_shells(std::vector<ShellBlock>& shells);
+
+}  // namespace clatter::mesh

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which of CQUAD4, CTRIA3 and the like are shells: those with a corner on no solid.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "mesh/deck/nastran/model.hpp"
+#include "mesh/deck/shell_shape.hpp"
+
+namespace clatter::mesh::deck::nastran {
+namespace {
+
+class ShellFinder {
+ public:
+  ShellFinder(Model& model, std::vector<int32_t>& mesh_node)
+      : model_(model), mesh_node_(mesh_node), solids_(mesh_node) {}
+
+  bool is_shell(const RawSkin& skin) const {
+    const auto corners = std::span(skin.grids).first(static_cast<size_t>(traits(skin.type).corners));
+    return std::ranges::any_of(
+        corners, [&](int32_t grid) { return solids_[row_of(skin, grid)] == NodeMap::kNone; });
+  }
+
+  // The nodes of a shell are nodes of the mesh.
+  void take(RawSkin& skin) {
+    if (skin.missing > 0)
+      fail(skin, fmt::format("found {} of its mid-side grids blank, expected all or none",
+                             skin.missing));
+    ShellFace face{.type = skin.type};
+    std::array<Eigen::Vector3d, kMaxFaceNodes> at{};
+    for (size_t i = 0; i < static_cast<size_t>(traits(skin.type).nodes); ++i) {
+      const size_t row = row_of(skin, skin.grids[i]);
+      mesh_node_[row] = 0;
+      face.nodes[i] = skin.grids[i];
+      at[i] = vector(model_.raw.grids.at[row]);
+    }
+    if (has_centre(face)) skin.centre = add_row(shell_centre(at), skin.origin);
+  }
+
+ private:
+  size_t row_of(const RawSkin& skin, int32_t grid) const {
+    const int32_t row = model_.grids.find(grid);
+    if (row < 0) fail(skin, fmt::format("found no GRID {}", grid));
+    return static_cast<size_t>(row);
+  }
+
+  int32_t add_row(const Eigen::Vector3d& at, Origin origin) {
+    Grids& grids = model_.raw.grids;
+    if (next_ == 0) next_ = *std::max_element(grids.ids.begin(), grids.ids.end());
+    if (next_ == std::numeric_limits<int32_t>::max())
+      model_.source.fail(origin, "found no free number above the largest GRID");
+    grids.ids.push_back(++next_);
+    grids.at.push_back({at.x(), at.y(), at.z()});
+    grids.origins.push_back(origin);
+    mesh_node_.push_back(0);
+    return static_cast<int32_t>(grids.size()) - 1;
+  }
+
+  [[noreturn]] void fail(const RawSkin& skin, const std::string& message) const {
+    model_.source.fail(skin.origin, fmt::format("{} {}: {}", skin.kind, skin.id, message));
+  }
+
+  Model& model_;
+  std::vector<int32_t>& mesh_node_;
+  std::vector<int32_t> solids_;
+  int32_t next_ = 0;  // last number given to a centre
+};
+
+}  // namespace
+
+void find_shells(Model& model, const Ignore& ignore, std::vector<int32_t>& mesh_node) {
+  RawDeck& raw = model.raw;
+  const bool is_skin_of_mesh = raw.solids.empty() && raw.shells.empty() && !raw.blocks.empty();
+  if (raw.skins.empty() || is_skin_of_mesh) return;
+  ShellFinder finder(model, mesh_node);
+  std::vector<RawSkin> skins;
+  for (RawSkin& skin : raw.skins) {
+    const bool is_shell = !ignore.lists(skin.kind) && finder.is_shell(skin);
+    if (is_shell) finder.take(skin);
+    (is_shell ? raw.shell_cells : skins).push_back(std::move(skin));
+  }
+  raw.skins = std::move(skins);
+}
+
+}  // namespace clatter::mesh::deck::nastran
