@@ -10,7 +10,7 @@
 namespace clatter::mesh::deck {
 
 void settle_beam_ends(Deck& deck) {
-  const std::vector<bool> turns = turning_nodes(deck.mesh);
+  const std::vector<bool> turns = turning_flags(deck.mesh);
   const auto on_solids = [&](NodeIndex end) {
     return end < deck.mesh.nodes.rows() && !turns[static_cast<size_t>(end)];
   };

@@ -48,10 +48,9 @@ class Clamped {
 
 }  // namespace
 
-std::vector<bool> turning_nodes(const Mesh& mesh) {
+std::vector<bool> turning_flags(const Mesh& mesh) {
   std::vector<bool> turns(static_cast<size_t>(mesh.nodes.rows()), false);
-  for (const ShellBlock& block : mesh.shells)
-    for (const int32_t node : block.nodes.reshaped()) turns[static_cast<size_t>(node)] = true;
+  for (const int32_t node : turning_nodes(mesh)) turns[node] = true;
   return turns;
 }
 

@@ -17,7 +17,7 @@ struct ShellHinge {
 };
 
 /// By node of the mesh: whether shells have it, so that it has rotations.
-std::vector<bool> turning_nodes(const Mesh& mesh);
+std::vector<bool> turning_flags(const Mesh& mesh);
 
 /// Refuses shells on nodes of solids, unless a coupling, a support or an equation has the rotation
 /// of one of these nodes: hinges.

@@ -11,7 +11,7 @@ namespace clatter::mesh::deck {
 RecipeNames::RecipeNames(Deck& deck)
     : deck_(deck),
       n_nodes_(static_cast<int32_t>(deck.mesh.nodes.rows())),
-      turns_(turning_nodes(deck.mesh)) {
+      turns_(turning_flags(deck.mesh)) {
   for (const auto& [name, nodes] : deck.mesh.node_sets) sets_.try_emplace(nodes, name);
 }
 
