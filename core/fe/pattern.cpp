@@ -45,13 +45,13 @@ CellsOfNode cells_of_nodes(const mesh::Mesh& mesh) {
 /// Rows of one column: `node`, then its higher neighbours ascending.
 void collect_rows(const mesh::Mesh& mesh, const CellsOfNode& of, int32_t node,
                   std::vector<int32_t>& rows) {
-  rows.clear();
+  rows.assign(1, node);  // also of shells alone
   const auto j = static_cast<size_t>(node);
   for (int64_t k = of.start[j]; k < of.start[j + 1]; ++k) {
     const CellsOfNode::Entry entry = of.entries[k];
     const auto cell = mesh.cells[entry.block].nodes.row(entry.cell);
     for (const int32_t neighbour : cell)
-      if (neighbour >= node) rows.push_back(neighbour);
+      if (neighbour > node) rows.push_back(neighbour);
   }
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
