@@ -6,12 +6,11 @@
 // V_i: director of node i in this cell (shell_directors.hpp). A rigid motion has no strain, on a
 // warped cell too.
 //
-//   tri3   MITC3+: shear tied at points, rotations with a bubble (Y. Lee, P.-S. Lee, K.-J. Bathe,
-//          Computers and Structures 138, 2014)
-//   quad4  MITC4+: shear tied at the sides (E. N. Dvorkin, K.-J. Bathe, Engng Comput. 1, 1984), the
-//          membrane free of what a warped cell adds (Y. Ko, P.-S. Lee, K.-J. Bathe, Computers and
-//          Structures 182, 2017), four enhanced membrane strains (J. C. Simo, M. S. Rifai, Int. J.
-//          Numer. Meth. Engng 29, 1990)
+//   tri3   MITC3+: constant membrane strain, shear tied at points, rotations with a bubble
+//          (Lee, Lee and Bathe 2014)
+//   quad4  MITC4+: shear tied at the sides (Dvorkin and Bathe 1984), the membrane free of what a
+//          warped cell adds (Ko, Lee and Bathe 2017), four enhanced membrane strains (Simo and
+//          Rifai 1990)
 #include <Eigen/Core>
 
 #include "core/fe/shell_section.hpp"

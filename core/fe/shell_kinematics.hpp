@@ -35,7 +35,7 @@ struct MidSurface {
   explicit MidSurface(const ShellCell& cell);
 };
 
-/// A point of it; a, b: the base vectors x,r and x,s.
+/// A point of it.
 struct SurfacePoint {
   Eigen::Vector2d at;          // r, s
   ShellWeights h, h_r, h_s;    // shape functions

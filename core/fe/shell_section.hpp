@@ -31,7 +31,7 @@ struct ShellStiffness {
 
 /// Of a sheet of `thickness` [m] of an isotropic material under plane stress. The rotation about
 /// the normal is tied to that of the membrane by 1e-4 G t: no digit of a result changes below it
-/// (T. J. R. Hughes, F. Brezzi, Comput. Methods Appl. Mech. Engng 72, 1989).
+/// (Hughes and Brezzi 1989).
 ShellStiffness stiffness_of(const ShellSection& section, const Material& material,
                             double thickness);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // tri3, MITC3+: the membrane has constant strain; rotations have a bubble 27 r s (1 - r - s), and
-// the shear strains are tied at six points inside (Y. Lee, P.-S. Lee, K.-J. Bathe, Computers and
-// Structures 138, 2014).
+// the shear strains are tied at six points inside (Lee, Lee and Bathe 2014).
 #include <Eigen/Geometry>
 
 #include "core/fe/shell_kinematics.hpp"

@@ -49,15 +49,32 @@ TEST(Quadrature, AllWeightsArePositiveAndAllPointsInside) {
   }
 }
 
-TEST(Quadrature, TriangleRuleIntegratesDegreeSeven) {
-  const FaceRule& rule = triangle_rule_16();
-  for (int i = 0; i <= 7; ++i)
-    for (int j = 0; i + j <= 7; ++j) {
+void expect_triangle_exact(const FaceRule& rule, int degree) {
+  for (int i = 0; i <= degree; ++i)
+    for (int j = 0; i + j <= degree; ++j) {
       double sum = 0.0;
       for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
         sum += rule.weights(q) * std::pow(rule.points(q, 0), i) * std::pow(rule.points(q, 1), j);
       const double exact = factorial(i) * factorial(j) / factorial(i + j + 2);
       EXPECT_NEAR(sum / exact, 1.0, 1e-12) << i << " " << j;
+    }
+}
+
+TEST(Quadrature, TriangleRulesIntegrateDegreesFourAndSeven) {
+  expect_triangle_exact(triangle_rule_6(), 4);
+  expect_triangle_exact(triangle_rule_16(), 7);
+}
+
+TEST(Quadrature, QuadRuleOfFourPointsIntegratesCubics) {
+  const FaceRule& rule = quad_rule_4();
+  ASSERT_EQ(rule.weights.size(), 4);
+  for (int i = 0; i <= 3; ++i)
+    for (int j = 0; j <= 3; ++j) {
+      double sum = 0.0;
+      for (Eigen::Index q = 0; q < 4; ++q)
+        sum += rule.weights(q) * std::pow(rule.points(q, 0), i) * std::pow(rule.points(q, 1), j);
+      const double exact = (i % 2 ? 0.0 : 2.0 / (i + 1)) * (j % 2 ? 0.0 : 2.0 / (j + 1));
+      EXPECT_NEAR(sum, exact, 1e-14) << i << " " << j;
     }
 }
 

@@ -74,7 +74,7 @@ Eigen::VectorXd frequencies(const SheetMatrices& model, const std::vector<int>& 
   const Factor factor(K - shift * M);
   if (factor.info() != Eigen::Success) throw std::runtime_error("pencil not definite");
   // Krylov space of blocks; one block finds as many copies of an eigenvalue as it has columns.
-  const int block = 12, blocks = 2 + (2 * count + block - 1) / block + 3;
+  const int block = 12, blocks = 5 + count / 2;
   Eigen::MatrixXd basis(K.rows(), 0), T;
   Eigen::MatrixXd W = factor.solve(times(M, test::random_matrix(K.rows(), block)));
   Eigen::MatrixXd images(K.rows(), 0);
