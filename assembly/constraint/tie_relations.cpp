@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "assembly/coupling/coupling.hpp"
@@ -43,6 +44,40 @@ std::array<Functional, 3> rotation_rows(const ProjectedNode& row, const Eigen::V
   return rows;
 }
 
+/// The same of a node of a shell: its face, at the masters, turns with its own rotations, of which
+/// `first` is the first.
+std::array<Functional, 3> own_rotation_rows(int32_t first, const Eigen::Vector3d& arm) {
+  const Eigen::Matrix3d lever = rigid_motion(arm).rightCols<3>();  // theta x arm
+  std::array<Functional, 3> rows;
+  for (int d = 0; d < 3; ++d)
+    for (int r = 0; r < 3; ++r) {
+      if (std::abs(lever(d, r)) <= kNoArm * arm.norm()) continue;  // rounding
+      rows[d].dofs.push_back(first + r);
+      rows[d].values.push_back(lever(d, r));
+    }
+  return rows;
+}
+
+/// Half the thickness of the thickest shell [m]: their faces are that far from their nodes.
+double half_thickness(const PartData& part) {
+  double thickest = 0.0;
+  for (const mesh::ShellBlock& block : part.mesh.shells)
+    thickest = std::max(thickest, block.thickness.size() > 0
+                                      ? block.thickness.maxCoeff()
+                                      : part.recipe.sections[block.region].thickness);
+  return 0.5 * thickest;
+}
+
+/// The faces seen from their other side.
+std::vector<TieFace> turned_faces(const mesh::Mesh& mesh, const std::string& surface) {
+  mesh::Surface other = mesh.surface(surface);
+  for (mesh::FaceBlock& block : other.faces) {
+    const int corners = mesh::traits(block.type).corners;
+    block.nodes.leftCols(corners).rowwise().reverseInPlace();
+  }
+  return tie_faces(mesh.nodes, other);
+}
+
 void say_result(const TieSpec& spec, const Projection& found, int held) {
   say(fmt::format(
       "{}: {} slave nodes tied over {:.1f} % of the slave surface, largest gap {:.3g} m", spec.name,
@@ -78,7 +113,10 @@ std::vector<Dependence> tie(const PartData& part, const TieSpec& given, int32_t 
     Eigen::Vector3d arm = mesh.nodes.row(row.node).transpose();
     for (const auto& [node, value] : row.on) arm -= value * mesh.nodes.row(node).transpose();
     std::array<Functional, 3> rows;
-    if (arm.norm() > kNoArm * size) rows = rotation_rows(row, arm, mesh.nodes, spec.where);
+    const int32_t own = part.numbers.rotation_of(row.node);
+    if (arm.norm() > kNoArm * size)
+      rows = own < 0 ? rotation_rows(row, arm, mesh.nodes, spec.where)
+                     : own_rotation_rows(own, arm);
     for (int d = 0; d < 3; ++d) {
       const int32_t dof = 3 * row.node + d;
       if (graph.is_held(dof)) {
@@ -108,8 +146,14 @@ Projection project_tie(const PartData& part, TieSpec& spec) {
   const mesh::Mesh& mesh = part.mesh;
   const std::vector<TieFace> slave = tie_faces(mesh.nodes, mesh.surface(spec.slave));
   const std::vector<TieFace> master = tie_faces(mesh.nodes, mesh.surface(spec.master));
-  if (!spec.distance) spec.distance = kDefaultGap * mean_size(slave);
+  if (!spec.distance) spec.distance = kDefaultGap * mean_size(slave) + half_thickness(part);
   Projection found = project(slave, master, *spec.distance);
+  // A sheet has two faces; its surface may be named for the other one.
+  const bool sheet = std::ranges::all_of(mesh::nodes_of(mesh.surface(spec.slave)), [&](int32_t n) {
+    return part.numbers.rotation_of(n) >= 0;
+  });
+  if (found.tied.empty() && sheet)
+    found = project(turned_faces(mesh, spec.slave), master, *spec.distance);
   if (found.tied.empty())
     throw InputError(
         fmt::format("{}: found no part of {} that faces {} within {:.3g} m, expected "

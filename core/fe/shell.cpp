@@ -2,6 +2,7 @@
 #include "core/fe/shell.hpp"
 
 #include <Eigen/Cholesky>
+#include <array>
 
 #include "core/fe/shell_kinematics.hpp"
 
@@ -94,6 +95,13 @@ void lump(Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>& m) {
   m = diagonal.asDiagonal();
 }
 
+/// Without components that are rounding: a rotation about the axis that is left has no mass,
+/// instead of one of the square of rounding.
+Eigen::RowVector3d without_rounding(const Eigen::RowVector3d& director) {
+  constexpr double kRounding = 1e-6;
+  return (director.array().abs() < kRounding).select(0.0, director);
+}
+
 /// Of the mid-surface. A rotation about a director moves no mass: its inertia is that of
 /// w = theta x V.
 ShellMatrix mass_of(const MidSurface& mid, const ShellCell& cell, MassForm form) {
@@ -103,22 +111,24 @@ ShellMatrix mass_of(const MidSurface& mid, const ShellCell& cell, MassForm form)
     lump(nodal.rotary);
   }
   const Eigen::Index n = mid.x.rows();
+  std::array<Eigen::Matrix3d, 4> turned;  // theta x V = turned theta
+  for (Eigen::Index i = 0; i < n; ++i) turned[i] = cross_matrix(without_rounding(mid.V.row(i)));
   ShellMatrix M = ShellMatrix::Zero(6 * n, 6 * n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
       M.block<3, 3>(6 * i, 6 * j).diagonal().setConstant(nodal.mass(i, j));
       M.block<3, 3>(6 * i + 3, 6 * j + 3) =
-          nodal.rotary(i, j) *
-          cross_matrix(mid.V.row(i)).transpose().lazyProduct(cross_matrix(mid.V.row(j)));
+          nodal.rotary(i, j) * turned[i].transpose().lazyProduct(turned[j]);
     }
   return M;
 }
 
 /// From DoFs of the mid-surface to those of the nodes: u_mid = u + theta x (offset V).
-void to_nodes(const ShellCell& cell, ShellMatrix& A) {
-  if (cell.offset == 0.0) return;
-  for (Eigen::Index i = 0; i < cell.x.rows(); ++i) {
-    const Eigen::Matrix3d arm = cross_matrix(cell.offset * cell.directors.row(i));
+/// @param V directors.
+void to_nodes(double offset, const ShellNodes& V, ShellMatrix& A) {
+  if (offset == 0.0) return;
+  for (Eigen::Index i = 0; i < V.rows(); ++i) {
+    const Eigen::Matrix3d arm = cross_matrix(offset * V.row(i));
     A.middleCols<3>(6 * i + 3) += A.middleCols<3>(6 * i).lazyProduct(arm);
     A.middleRows<3>(6 * i + 3) += arm.transpose().lazyProduct(A.middleRows<3>(6 * i));
   }
@@ -133,8 +143,10 @@ bool compute_shell(const ShellCell& cell, MassForm form, ShellMatrices& out) {
     const ShellMatrix K = condense(theory, cell).K;
     out.stiffness = 0.5 * (K + K.transpose());
     out.mass = mass_of(mid, cell, form);
-    to_nodes(cell, out.stiffness);
-    to_nodes(cell, out.mass);
+    to_nodes(cell.offset, cell.directors, out.stiffness);
+    ShellNodes V = cell.directors;
+    for (Eigen::Index i = 0; i < V.rows(); ++i) V.row(i) = without_rounding(V.row(i));
+    to_nodes(cell.offset, V, out.mass);
     return true;
   });
 }

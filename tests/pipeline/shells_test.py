@@ -70,7 +70,7 @@ class Shells(unittest.TestCase):
         elastic = hz[hz > 1.0]
         np.testing.assert_allclose(elastic[:12] / SOLIDS, 1.0, atol=8e-3)
 
-    def test_a_condensed_pan_keeps_its_frequencies_below_the_cut_off(self):
+    def test_a_condensed_plate_keeps_its_frequencies_below_the_cut_off(self):
         (self.folder / "plate.bdf").write_text(plate_deck(30, 20))
         full = self.frequencies("plate.bdf", 10)
         with h5py.File(self.folder / "plate.mesh.h5") as file:
@@ -78,8 +78,8 @@ class Shells(unittest.TestCase):
         recipe = (self.folder / "plate.fe.toml").read_text()
         with h5py.File(self.folder / "plate.mesh.h5", "r+") as file:
             file["node_sets/corners"] = np.array([0, 30, 20 * 31, 21 * 31 - 1], dtype=np.int32)
-        (self.folder / "plate.fe.toml").write_text(recipe + '\n[[nodes]]\nname = "corners"\nnode_set = "corners"\n'
-                                                   'directions = "xyz"\n')
+        (self.folder / "plate.fe.toml").write_text(recipe + '\n[[nodes]]\nname = "corners"\n[[nodes.term]]\n'
+                                                   'node_set = "corners"\ndirections = "xyz"\n')
         (self.folder / "plate.rom.toml").write_text('boundary = ["corners"]\nfmax_hz = 800.0\nskin = ["skin"]\n')
         self.run_stages(("assembly", "plate.mesh.h5", "-c", "plate.fe.toml", "-o", "plate.fe.h5"),
                         ("condense", "plate.fe.h5", "-c", "plate.rom.toml", "-o", "plate.rom.h5"),

@@ -125,6 +125,23 @@ TEST_P(ShellOfNodes, LumpedMassHasTheTotalAndNoMassAboutTheDirector) {
   EXPECT_EQ(beside.cwiseAbs().maxCoeff(), 0.0);
 }
 
+TEST(ShellMass, HardU7_ASheetTiltedByRoundingHasNoMassAboutItsNormal) {
+  const Eigen::Matrix3d tilt =
+      Eigen::AngleAxisd(1e-9, Eigen::Vector3d(1.0, 2.0, 0.0).normalized()).toRotationMatrix();
+  Plate plate = kPlate;
+  for (const double offset : {0.0, 1e-3}) {
+    plate.offset = offset;
+    ShellNodes x(4, 3);
+    x << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
+    ShellMatrices out;
+    ASSERT_TRUE(compute_shell(cell_alone(x * tilt.transpose(), plate), MassForm::kConsistent, out));
+    for (int node = 0; node < 4; ++node) {
+      EXPECT_EQ(out.mass.row(6 * node + 5).cwiseAbs().maxCoeff(), 0.0);
+      EXPECT_GT(out.mass(6 * node + 3, 6 * node + 3), 0.0);
+    }
+  }
+}
+
 TEST_P(ShellOfNodes, MatricesAreSymmetric) {
   const ShellMatrices m = matrices_of(odd_cell(GetParam(), 5));
   for (const ShellMatrix& A : {m.stiffness, m.mass})
