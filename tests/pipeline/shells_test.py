@@ -18,6 +18,8 @@ PAN = pathlib.Path(__file__).resolve().parents[3] / "shared" / "reference" / "sh
 PLATE = [83.337, 88.892, 192.213, 207.166, 239.468, 278.099]
 # The pan of pan.py, 1.5 mm, free: two layers of quadratic solids of 5 mm [Hz].
 SOLIDS = [207.45, 250.08, 385.74, 548.36, 598.64, 612.59, 715.58, 892.95, 963.68, 984.95, 993.95, 1161.67]
+# The same, tied over its flange to a ring of cast iron that is half a thickness away.
+FRAMED = [233.17, 237.04, 375.64, 422.61, 550.65, 600.19, 714.48, 786.28, 892.75, 971.33, 987.21, 1018.63]
 
 
 def plate_deck(nx, ny):
@@ -62,13 +64,19 @@ class Shells(unittest.TestCase):
         error, finer = elastic[5] / PLATE[5] - 1, fine[fine > 1.0][5] / PLATE[5] - 1
         self.assertGreater(error / finer, 3.5)
 
+    def pan(self, *options):
+        subprocess.run([sys.executable, str(PAN), "pan.inp", "--cells", "s4", "--level", "2", "--t", "1.5", *options],
+                       check=True, capture_output=True, cwd=self.folder)
+        hz = self.frequencies("pan.inp", 18)
+        return hz[hz > 1.0][:12]
+
     @unittest.skipUnless(PAN.exists(), "the reference's pan is not here")
     def test_a_pan_agrees_with_quadratic_solids(self):
-        subprocess.run([sys.executable, str(PAN), str(self.folder / "pan.inp"), "--cells", "s4", "--level", "2", "--t",
-                        "1.5"], check=True, capture_output=True, cwd=self.folder)
-        hz = self.frequencies("pan.inp", 18)
-        elastic = hz[hz > 1.0]
-        np.testing.assert_allclose(elastic[:12] / SOLIDS, 1.0, atol=8e-3)
+        np.testing.assert_allclose(self.pan() / SOLIDS, 1.0, atol=8e-3)
+
+    @unittest.skipUnless(PAN.exists(), "the reference's pan is not here")
+    def test_a_pan_tied_to_a_frame_has_the_arm_of_half_its_thickness(self):
+        np.testing.assert_allclose(self.pan("--frame", "tied") / FRAMED, 1.0, atol=1e-2)
 
     def test_a_condensed_plate_keeps_its_frequencies_below_the_cut_off(self):
         (self.folder / "plate.bdf").write_text(plate_deck(30, 20))

@@ -280,10 +280,22 @@ std::string surface_of_nodes(Model& model, const std::vector<int32_t>& rows,
     const auto nodes = numbering.nodes_of(cell);
     if (std::count_if(nodes.begin(), nodes.end(), is_requested) >= 3) cells.push_back(cell);
   }
-  const auto faces = free_faces(numbering, cells, is_requested);
+  auto faces = free_faces(numbering, cells, is_requested);
+  std::vector<CellFaceId> shells;
+  for (int32_t element = numbering.first_thin(); element < numbering.elements(); ++element) {
+    const ThinElement& thin = numbering.thin()[element - numbering.first_thin()];
+    if (model.is_shell(element) &&
+        std::all_of(thin.nodes.begin(), thin.nodes.begin() + thin.count, is_requested))
+      shells.emplace_back(element, kSpos);
+  }
   for (const CellFaceId& id : faces) {
     for (const int32_t row : face_rows(numbering, id)) wanted[row] = false;
   }
+  for (const CellFaceId& id : shells) {
+    const ThinElement& thin = numbering.thin()[id.first - numbering.first_thin()];
+    for (int32_t i = 0; i < thin.count; ++i) wanted[thin.nodes[i]] = false;
+  }
+  faces.insert(faces.end(), shells.begin(), shells.end());
   for (const int32_t row : rows) {
     if (!wanted[row]) continue;
     model.source.fail(origin, fmt::format("surface {} of nodes: node {} belongs to no outer face "

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shells against oracles: displacements of benchmarks, and frequencies of a pan of sheet steel against solids.
+
+    tests/validate/shells.py           prints the tables
+    tests/validate/shells.py --write   puts them into docs/validation.md
+
+The pan is that of `../shared/reference/shells/pan.py`, which is not part of the repository.
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import docs_table
+import h5py
+import numpy as np
+from stage_run import BIN, SOURCE, run
+
+PAN = SOURCE.parent / "shared/reference/shells/pan.py"
+# CalculiX, two layers of C3D20R, 5 mm [Hz], modes 1 to 12: free at 1.5 mm, free at .8 mm, at 1.5 mm tied to a frame.
+SOLIDS = {
+    "free, 1.5 mm": (207.45, 250.08, 385.74, 548.36, 598.64, 612.59, 715.58, 892.95, 963.68, 984.95, 993.95, 1161.67),
+    "free, .8 mm": (137.69, 185.52, 215.70, 302.50, 336.36, 404.59, 490.63, 499.32, 546.00, 612.05, 666.94, 677.70),
+    "tied to a frame": (233.17, 237.04, 375.64, 422.61, 550.65, 600.19, 714.48, 786.28, 892.75, 971.33, 987.21,
+                        1018.63),
+}
+CASES = [("free, 1.5 mm", "10 mm", 1, []), ("free, 1.5 mm", "5 mm", 2, []), ("free, 1.5 mm", "2.5 mm", 4, []),
+         ("free, .8 mm", "5 mm", 2, ["--t", "0.8"]), ("free, .8 mm", "2.5 mm", 4, ["--t", "0.8"]),
+         ("tied to a frame", "5 mm", 2, ["--frame", "tied"]), ("tied to a frame", "2.5 mm", 4, ["--frame", "tied"])]
+
+
+def benchmarks():
+    """Rows of the test program: name, then ratios to the published displacement."""
+    program = BIN.parent / "tests/core/fe/fe_test"
+    said = subprocess.run([program, "--gtest_filter=*ShellBenchmark*"], check=True, capture_output=True, text=True)
+    return [[word.strip() for word in line.strip().strip("|").split("|")]
+            for line in said.stdout.splitlines() if line.startswith("| ")]
+
+
+def elastic_frequencies(level, options):
+    """The first twelve of a pan of `level` times 10 mm / level, of S4 [Hz]."""
+    with tempfile.TemporaryDirectory(prefix="clatter-pan-") as name:
+        folder = pathlib.Path(name)
+        subprocess.run([sys.executable, PAN, "pan.inp", "--cells", "s4", "--level", str(level),
+                        *(["--t", "1.5"] if "--t" not in options else []), *options],
+                       check=True, capture_output=True, cwd=folder)
+        run("mesh", "pan.inp", "--units", "mm-t-s", "-o", "a.mesh.h5", "--recipe", "a.fe.toml", folder=folder)
+        run("assembly", "a.mesh.h5", "-c", "a.fe.toml", "-o", "a.fe.h5", folder=folder)
+        run("modal", "a.fe.h5", "--count", "18", "-o", "a.modes.h5", folder=folder)
+        with h5py.File(folder / "a.modes.h5") as file:
+            hz = file["frequency_hz"][()]
+    return hz[hz > 1.0][:12]
+
+
+def pan_row(case, cells, level, options):
+    off = 100.0 * (elastic_frequencies(level, options) / np.array(SOLIDS[case]) - 1.0)
+    return [case, cells, *(f"{value:+.2f}" for value in off)]
+
+
+def main():
+    docs_table.finish("shell_benchmarks", docs_table.markdown(
+        ("case, mesh", "quad4", "quad4 distorted", "tri3", "tri3 distorted"), benchmarks()), sys.argv[1:])
+    docs_table.finish("pan", docs_table.markdown(
+        ("pan", "cells", *(str(mode) for mode in range(1, 13))), [pan_row(*case) for case in CASES]), sys.argv[1:])
+
+
+if __name__ == "__main__":
+    main()
