@@ -60,7 +60,7 @@ struct Errors {
 };
 
 double stress_error(const mesh::Mesh& mesh, const Eigen::VectorXd& u) {
-  const fe::FeCells cells{mesh.regions, materials_of(mesh, kMaterial), mesh.cells, {}};
+  const fe::FeCells cells{mesh.regions, materials_of(mesh, kMaterial), mesh.cells, {}, {}, {}};
   const fe::RegionStress found = fe::nodal_stress(mesh.nodes, cells, u, {})[0];
   double square = 0.0;
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)

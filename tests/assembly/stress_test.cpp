@@ -66,7 +66,7 @@ fe::Voigt tensor_stress(const fe::Material& material, const Eigen::Matrix3d& gra
 }
 
 fe::FeCells cells_of(const mesh::Mesh& mesh, const fe::Material& material) {
-  return {mesh.regions, materials_of(mesh, material), mesh.cells, {}};
+  return {mesh.regions, materials_of(mesh, material), mesh.cells, {}, {}, {}};
 }
 
 mesh::Mesh mesh_of(CellType type, const Map& map) {
@@ -213,7 +213,7 @@ TEST(StressAcrossMaterials, JumpsAndIsNotAveraged) {
   mesh.cells.push_back(upper);
   fe::Material soft = kSteel;
   soft.youngs *= 0.5;
-  const fe::FeCells cells{{"hard", "soft"}, {kSteel, soft}, mesh.cells, {}};
+  const fe::FeCells cells{{"hard", "soft"}, {kSteel, soft}, mesh.cells, {}, {}, {}};
   const Eigen::VectorXd u =
       displaced(mesh.nodes, [](const Position& x) -> Position { return 1e-3 * x; });
   const auto found = fe::nodal_stress(mesh.nodes, cells, u, {});

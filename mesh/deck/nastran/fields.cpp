@@ -25,10 +25,11 @@ void expand_tabs(std::string_view line, std::string& out) {
   }
 }
 
-// Continuation names are compared without their + or *.
+// Continuation names are compared without their + or *; some programs number them "+000001", so that
+// the next line begins with two.
 std::string_view continuation_name(std::string_view text) {
   text = trimmed(text);
-  if (!text.empty() && (text[0] == '+' || text[0] == '*')) text = trimmed(text.substr(1));
+  while (!text.empty() && (text[0] == '+' || text[0] == '*')) text = trimmed(text.substr(1));
   return text;
 }
 

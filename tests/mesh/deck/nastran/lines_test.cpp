@@ -94,6 +94,9 @@ INSTANTIATE_TEST_SUITE_P(
         Form{"before_its_card",
              "+ABC    7       8       9       10\n"
              "CTETRA  77      1       1       2       3       4       5       6       +ABC\n"},
+        Form{"names_with_a_mark_of_their_own",
+             "CTETRA  77      1       1       2       3       4       5       6        +000001\n"
+             "++0000017       8       9       10\n"},
         Form{"windows_line_ends",
              "CTETRA  77      1       1       2       3       4       5       6       +\r\n"
              "+       7       8       9       10\r\n"}),
