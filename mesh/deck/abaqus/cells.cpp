@@ -46,7 +46,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kReplaced
 constexpr std::array<std::string_view, 8> kThinFamilies = {"CPS",  "CPE", "SFM3D", "M3D",
                                                            "STRI", "R3D", "DS",    "S"};
 
-constexpr std::array<std::string_view, 8> kShells = {"S3", "S3R", "S4",  "S4R",
+constexpr std::array<std::string_view, 8> kShellTypes = {"S3", "S3R", "S4",  "S4R",
                                                      "S6", "S8",  "S8R", "STRI65"};
 
 // Corners of the faces by number, as bit masks.
@@ -142,10 +142,10 @@ std::optional<FaceType> thin_type(std::string_view name) {
   return std::nullopt;
 }
 
-std::span<const std::string_view> shell_types() { return kShells; }
+std::span<const std::string_view> shell_types() { return kShellTypes; }
 
 bool is_shell_type(std::string_view name) {
-  return std::ranges::find(kShells, folded(name)) != kShells.end();
+  return std::ranges::find(kShellTypes, folded(name)) != kShellTypes.end();
 }
 
 int line_nodes(std::string_view name) {

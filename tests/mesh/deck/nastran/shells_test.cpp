@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// CQUAD4, CTRIA3 and the like beside solids.
+#include <gmock/gmock.h>
+
+#include "mesh/deck/recipe/recipe.hpp"
+#include "tests/mesh/deck/nastran/support.hpp"
+
+namespace clatter::test {
+namespace {
+
+using mesh::FaceType;
+using mesh::deck::Deck;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// Two squares along x, of grids 1 to 6; grid 7 belongs to nothing.
+const std::string kGrids =
+    "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,2.,0.,0.\n"
+    "GRID,4,,0.,1.,0.\nGRID,5,,1.,1.,0.\nGRID,6,,2.,1.,0.\nGRID,7,,9.,0.,0.\n";
+const std::string kSheet = "MAT1,1,210.,,.3,7.8\nPSHELL,2,1,.1,1,,1\n";
+const std::string kPair = kSheet + kGrids + "CQUAD4,11,2,1,2,5,4\nCQUAD4,12,2,2,3,6,5\n";
+
+std::string notes_of(const Deck& deck) {
+  std::string all;
+  for (const std::string& note : deck.notes) all += note + "\n";
+  return all;
+}
+
+TEST(NastranShells, AreCellsOfARegionWithItsSection) {
+  const auto deck = read_deck(kPair);
+  EXPECT_EQ(deck.mesh.nodes.rows(), 6);
+  EXPECT_TRUE(deck.points.empty());
+  EXPECT_THAT(deck.mesh.regions, ElementsAre("pid_2"));
+  EXPECT_EQ(deck.regions.at(0).material, "mat_1");
+  const mesh::ShellBlock& block = deck.mesh.shells.at(0);
+  EXPECT_EQ(block.type, FaceType::kQuad4);
+  EXPECT_EQ(block.region, 0);
+  EXPECT_THAT(block.ids, ElementsAre(11, 12));
+  EXPECT_EQ(block.nodes.row(1), (Eigen::RowVector<int32_t, 4>(1, 2, 5, 4)));
+  EXPECT_EQ(block.thickness.size(), 0);
+  EXPECT_EQ(block.offset.size(), 0);
+  const recipe::Shell& shell = deck.shells.at(0);
+  EXPECT_THAT(shell.regions, ElementsAre("pid_2"));
+  EXPECT_EQ(shell.section.thickness, 0.1);
+  EXPECT_EQ(shell.section.bending, 1.0);
+  EXPECT_EQ(shell.section.shear, 5.0 / 6.0);
+  EXPECT_TRUE(deck.mass == mesh::deck::MassForm::kLumped);
+  EXPECT_THAT(deck.notes, IsEmpty());
+}
+
+TEST(NastranShells, ThicknessAndOffsetOfACellAreItsOwn) {
+  const auto deck =
+      read_deck(kSheet + kGrids +
+                "CQUAD4,11,2,1,2,5,4,,.05,+\n+,,,.1,.2,.3,.4\n"
+                "CTRIA3,12,2,2,3,6,,,+\n+,,1,.5,2.\nCTRIA3,13,2,2,6,5\n");
+  const mesh::ShellBlock &quad = deck.mesh.shells.at(1), &triangles = deck.mesh.shells.at(0);
+  EXPECT_EQ(quad.thickness.row(0), Eigen::RowVector4d(0.1, 0.2, 0.3, 0.4));
+  EXPECT_EQ(quad.offset(0), 0.05);
+  EXPECT_TRUE(triangles.thickness.row(0).isApprox(Eigen::RowVector3d(0.05, 0.2, 0.1), 1e-15));
+  EXPECT_EQ(triangles.thickness.row(1), Eigen::RowVector3d(0.1, 0.1, 0.1));
+  EXPECT_EQ(triangles.offset.size(), 0);
+}
+
+TEST(NastranShells, NeighboursAreTurnedToOneSideWithTheirOffset) {
+  const auto deck = read_deck(kSheet + kGrids +
+                              "CQUAD4,11,2,1,2,5,4,,.05\nCQUAD4,12,2,2,5,6,3,,.05\n"
+                              "PLOAD2,1,3.,12\n");
+  const mesh::ShellBlock& block = deck.mesh.shells.at(0);
+  EXPECT_EQ(block.nodes.row(1), (Eigen::RowVector<int32_t, 4>(1, 2, 5, 4)));
+  EXPECT_EQ(block.offset, Eigen::Vector2d(0.05, -0.05));
+  EXPECT_THAT(notes_of(deck), HasSubstr("1 shells are turned to the side of their neighbours"));
+  // Its pressure acts along the normal of the deck's order: down.
+  const mesh::Surface& surface = deck.mesh.surface("pload4_1");
+  EXPECT_EQ(surface.faces.at(0).nodes.row(0), (Eigen::RowVector<int32_t, 4>(1, 4, 5, 2)));
+  EXPECT_EQ(deck.steps.at(0).pressures.at(0).value, -3.0);
+}
+
+TEST(NastranShells, SectionsCountTheStiffnessOfTheirMaterials) {
+  const std::string materials = "MAT1,1,200.,,.25\nMAT1,3,100.,,.25\nMAT1,4,50.,,.25\n";
+  const std::string cells = kGrids + "CQUAD4,11,2,1,2,5,4\n";
+  const auto deck = read_deck(materials + cells + "PSHELL,2,1,.1,3,2.,4,.5,7.\nPARAM,WTMASS,.1\n");
+  const fe::ShellSection& section = deck.shells.at(0).section;
+  EXPECT_DOUBLE_EQ(section.bending, 1.0);
+  EXPECT_DOUBLE_EQ(section.shear, 0.125);
+  EXPECT_DOUBLE_EQ(section.area_mass, 0.7);
+  const auto plain = read_deck(materials + cells + "PSHELL,2,1,.1,3\n");
+  EXPECT_DOUBLE_EQ(plain.shells.at(0).section.bending, 0.5);
+  EXPECT_DOUBLE_EQ(plain.shells.at(0).section.shear, 5.0 / 12.0);
+  EXPECT_THAT(notes_of(plain), HasSubstr("MID3 of 1 PSHELL is blank, rigid in shear"));
+}
+
+TEST(NastranShells, WhatASectionCannotBeIsRefusedByName) {
+  const std::string cells = kGrids + "MAT1,1,200.,,.25\nMAT1,3,100.,,.3\nMAT8,8,1.,1.,.3,1.\n" +
+                            "CQUAD4,11,2,1,2,5,4\n";
+  const auto of = [&](const std::string& property) { return refusal(cells + property); };
+  EXPECT_THAT(of("PSHELL,2,1,.1\n"), HasSubstr("PSHELL 2: MID2 is blank: a membrane"));
+  EXPECT_THAT(of("PSHELL,2,,.1,1\n"), HasSubstr("PSHELL 2: MID1 is blank"));
+  EXPECT_THAT(of("PSHELL,2,1,.1,-1\n"), HasSubstr("MID2 is -1: plane strain"));
+  EXPECT_THAT(of("PSHELL,2,1,.1,1,,1,,,+\n+,,,3\n"), HasSubstr("MID4 joins stretching to bending"));
+  EXPECT_THAT(of("PSHELL,2,1,.1,3\n"), HasSubstr("MID2 has NU = 0.3, expected 0.25 as MID1"));
+  EXPECT_THAT(of("PSHELL,2,8,.1,8\n"), HasSubstr("material 8 is a MAT8, expected a MAT1"));
+  EXPECT_THAT(of("PSHELL,2,9,.1,9\n"), HasSubstr("PSHELL 2: found no material 9"));
+  EXPECT_THAT(of("PSHELL,2,1,,1\n"), HasSubstr("CQUAD4 11: found a thickness of 0"));
+  EXPECT_THAT(of("PSHELL,7,1,.1,1\n"), HasSubstr("CQUAD4 11: found no PSHELL 2"));
+  EXPECT_THAT(of("PCOMP,2,,,,,,,,+\n+,1,.1,0.,YES\n"),
+              HasSubstr("PCOMP 2: shells of layers are not read"));
+}
+
+TEST(NastranShells, QuadraticOnesAreFourLinearOnes) {
+  const std::string middle =
+      "GRID,21,,.5,0.,0.\nGRID,22,,1.,.5,0.\nGRID,23,,.5,1.,0.\nGRID,24,,0.,.5,0.\n"
+      "GRID,25,,1.5,.0,0.\nGRID,26,,1.5,.5,0.\n";
+  const auto deck = read_deck(kSheet + kGrids + middle +
+                              "CQUAD8,11,2,1,2,5,4,21,22,+\n+,23,24\n"
+                              "CTRIA6,12,2,2,3,5,25,26,22\n");
+  const mesh::ShellBlock &triangles = deck.mesh.shells.at(0), &quads = deck.mesh.shells.at(1);
+  EXPECT_THAT(quads.ids, ElementsAre(11, 11, 11, 11));
+  EXPECT_EQ(triangles.nodes.rows(), 4);
+  EXPECT_EQ(deck.mesh.nodes.rows(), 12);
+  EXPECT_EQ(deck.mesh.node_ids.back(), 27);
+  EXPECT_TRUE(deck.mesh.nodes.row(11).isApprox(Eigen::RowVector3d(0.5, 0.5, 0.0), 1e-15));
+  EXPECT_THAT(notes_of(deck), HasSubstr("1 CQUAD8, 1 CTRIA6: each is four linear shells"));
+  EXPECT_EQ(read_deck(kSheet + kGrids + "CQUAD8,11,2,1,2,5,4\n").mesh.shells.at(0).nodes.rows(), 1);
+  EXPECT_THAT(refusal(kSheet + kGrids + middle + "CQUAD8,11,2,1,2,5,4,21,22\n"),
+              HasSubstr("CQUAD8 11: found 2 of its mid-side grids blank, expected all or none"));
+}
+
+TEST(NastranShells, FacesThatAreNoneAreRefusedWithNumberAndPosition) {
+  const auto of = [&](const std::string& cell) { return refusal(kSheet + kGrids + cell); };
+  EXPECT_THAT(of("CQUAD4,11,2,1,5,2,4\n"),
+              HasSubstr("t.bdf:10: CQUAD4 11 at node 1 (0, 0, 0) has no area"));
+  EXPECT_THAT(of("CTRIA3,11,2,1,2,3\n"), HasSubstr("CTRIA3 11 at node 1 (0, 0, 0) has no area"));
+  EXPECT_THAT(of("GRID,8,,.2,.2,0.\nCQUAD4,11,2,2,5,4,8\n"), HasSubstr("is concave or folded"));
+  EXPECT_THAT(of("GRID,8,,0.,1.,2.\nCQUAD4,11,2,1,2,5,8\n"), HasSubstr("is warped by"));
+  const auto warped = read_deck(kSheet + kGrids + "GRID,8,,0.,1.,.4\nCQUAD4,11,2,1,2,5,8\n");
+  EXPECT_THAT(notes_of(warped), HasSubstr("1 shells are warped by more than 0.1 of their size"));
+  const auto triangle = read_deck(kSheet + kGrids + "CQUAD4,11,2,1,2,5,5\n");
+  EXPECT_EQ(triangle.mesh.shells.at(0).type, FaceType::kTri3);
+}
+
+TEST(NastranShells, TheirNodesTurnInSupportsCouplingsSpringsAndLoads) {
+  auto deck = read_deck(kPair +
+                        "SPC1,1,123456,1,4\nRBE2,20,3,123456,7\nCELAS2,30,5.,2,5\n"
+                        "CONM2,40,6,,2.,.1,0.,0.\nMOMENT,1,5,,3.,0.,0.,1.\n"
+                        "MPC,1,2,4,1.,5,4,-1.\n");
+  EXPECT_EQ(deck.supports.at(0).dofs, mesh::deck::kAllDofs);
+  EXPECT_EQ(deck.rigid.at(0).reference, 2);
+  EXPECT_EQ(deck.points.size(), 1u);
+  EXPECT_EQ(deck.springs.at(0).terms.at(0).direction, 4);
+  EXPECT_TRUE(deck.distributing.empty());
+  EXPECT_EQ(deck.masses.at(0).node_index, 5);
+  EXPECT_EQ(deck.steps.at(0).forces.at(0).direction, 5);
+  const recipe::File file = mesh::deck::recipe_of(deck).file;
+  EXPECT_EQ(file.shells.size(), 1u);
+  EXPECT_THAT(file.supports.at(0).directions, ElementsAre(0, 1, 2, 3, 4, 5));
+  EXPECT_EQ(file.supports.at(0).selection.node_set, "spc_1");
+  EXPECT_EQ(file.springs.at(0).terms.at(0).selection.node_set, "node_2");
+  EXPECT_EQ(file.equations.at(0).terms.at(0).selection.node_set, "node_2");
+  EXPECT_EQ(file.couplings.at(0).on_point, "on_node_3");
+  EXPECT_EQ(file.point_masses.at(0).on, "on_node_6");
+  EXPECT_EQ(file.loads.at(0).set, "on_node_5");
+}
+
+TEST(NastranShells, PressuresActAlongTheirNormals) {
+  const auto deck = read_deck(kPair + "PLOAD4,1,11,2.,,,,THRU,12\n");
+  EXPECT_EQ(deck.mesh.surface("pload4_1").face_count(), 2);
+  EXPECT_EQ(deck.steps.at(0).pressures.at(0).value, -2.0);
+  const auto total = [](const Deck& one) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const auto& force : one.steps.at(0).forces) sum[force.direction] += force.value;
+    return sum;
+  };
+  const auto varied = read_deck(kPair + "PLOAD4,1,11,1.,1.,3.,3.\n");
+  EXPECT_TRUE(total(varied).isApprox(Eigen::Vector3d(0, 0, 2), 1e-14));
+  const auto along = read_deck(kPair + "PLOAD4,1,11,2.,,,,,,+\n+,,1.,0.,0.\n");
+  EXPECT_TRUE(total(along).isApprox(Eigen::Vector3d(2, 0, 0), 1e-14));
+  EXPECT_THAT(refusal(kPair + "PLOAD2,1,2.,99\n"), HasSubstr("found no shell 99"));
+}
+
+// Unit cube; grid 9 stands on the middle of nothing.
+const std::string kCube =
+    "PSOLID,1,1\nGRID,11,,0.,0.,0.\nGRID,12,,1.,0.,0.\nGRID,13,,1.,1.,0.\nGRID,14,,0.,1.,0.\n"
+    "GRID,15,,0.,0.,1.\nGRID,16,,1.,0.,1.\nGRID,17,,1.,1.,1.\nGRID,18,,0.,1.,1.\n"
+    "GRID,21,,0.,0.,2.\nGRID,22,,1.,0.,2.\n"
+    "CHEXA,1,1,11,12,13,14,15,16,+\n+,17,18\n";
+
+TEST(NastranShells, OnesOnNodesOfSolidsAreHingesUnlessSomethingTurnsThese) {
+  const std::string wall = kSheet + kCube + "CQUAD4,50,2,15,16,22,21\n";
+  EXPECT_THAT(refusal(wall),
+              HasSubstr("t.bdf:15: found edge 15-16 of shell CQUAD4 50 on nodes of solids, which "
+                        "do not turn: a hinge; nodes of its own"));
+  const auto deck = read_deck(wall + "RBE3,60,,15,123456,1.,123,12,13,14\n");
+  EXPECT_EQ(deck.mesh.shells.at(0).region, 1);
+  EXPECT_THAT(deck.mesh.regions, ElementsAre("pid_1", "pid_2"));
+  EXPECT_THAT(refusal(kSheet + kCube + "CQUAD4,50,2,15,16,13,14\n"),
+              HasSubstr("found 1 CQUAD4 whose corners all belong to solids"));
+}
+
+TEST(NastranShells, AMeshWithoutPropertiesHasRegionsWithoutASection) {
+  const auto deck = read_deck(kGrids + "CQUAD4,11,2,1,2,5,4\n");
+  EXPECT_EQ(deck.mesh.shells.at(0).nodes.rows(), 1);
+  EXPECT_TRUE(deck.shells.empty());
+  EXPECT_TRUE(deck.regions.at(0).material.empty());
+}
+
+TEST(NastranShells, BarsEndOnThemWithoutAHinge) {
+  const auto deck = read_deck(kPair +
+                              "PBAR,3,1,1.,1.,1.,1.\nCBAR,70,3,1,2,0.,0.,1.\n");
+  EXPECT_EQ(deck.beams.at(0).ends, (std::array<int32_t, 2>{0, 1}));
+  EXPECT_EQ(deck.beams.at(0).sections.at(0).J, 1.0);
+}
+
+}  // namespace
+}  // namespace clatter::test
