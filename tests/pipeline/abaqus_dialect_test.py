@@ -100,7 +100,7 @@ class Dialects(unittest.TestCase):
 # What is refused, with the way out.
 REFUSED = {
     "cae_contact_that_opens": "opens and slides, which is not linear; expected TIED",
-    "cae_shell_stiffener": "1 elements S4R are shells or membranes beside the solids, which are not read yet; ignore",
+    "cae_shell_stiffener": "of shell S4R 101 on nodes of solids, which do not turn: a hinge",
 }
 
 

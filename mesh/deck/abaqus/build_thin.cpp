@@ -109,10 +109,14 @@ class ThinElements {
     return found.empty();
   }
 
-  static std::string reason(const ThinElement& one) {
+  bool has_shell_section(const ThinElement& one) const {
+    return section_[static_cast<size_t>(&one - all_.data())]->keyword().key == "SHELLSECTION";
+  }
+
+  std::string reason(const ThinElement& one) const {
     if (!one.face) return "are beams or trusses beside the solids, which are not read";
-    if (is_shell_type(one.type))
-      return "are shells without a *SHELL SECTION, or between nodes of solids, which do not turn";
+    if (is_shell_type(one.type) && has_shell_section(one))
+      return "are shells whose nodes all belong to solids, which do not turn";
     return fmt::format(
         "are shells or membranes beside the solids, which are not read, expected {} with a "
         "*SHELL SECTION",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Nastran bulk data decks (MSC, NX, Simcenter) of solids.
+// Nastran bulk data decks (MSC, NX, Simcenter) of solids and shells.
 //
 // Formats: small, large and free field, mixed; every form of continuation; repetitions (=, ==,
 // *(d)); INCLUDE, also 'DIR:file'; any case; with executive and case control or bulk data alone;
@@ -16,7 +16,8 @@
 //   CTETRA CPYRAM CPENTA CHEXA  with any mid-side nodes or none; left-handed ones and those with
 //                         repeated nodes are repaired (cell_repair.hpp); cells of fluids are
 //                         refused, or left out with ignore "PFLUID"
-//   CQUAD4 CTRIA3 ...     surface "pid_5" of those on faces of solids; others are shells: refused
+//   CQUAD4 CTRIA3 ...     surface "pid_5" of those on faces of solids; others are shells
+//   PSHELL                region "pid_5" of shells with its MAT1, Deck::shells
 //   PSOLID                region "pid_5"; CORDM counts with MAT9; IN and ISOP: the nearest
 //   integration
 //                         (build_regions.cpp), said where it is another one. A deck without any

@@ -101,7 +101,7 @@ TEST(ShellShape, ConcaveFoldedAndFlatFacesAreNone) {
     return shape_of({.type = type, .nodes = nodes}, x).defect;
   };
   EXPECT_EQ(defect({0, 1, 2, 3}, FaceType::kQuad4), "");
-  EXPECT_THAT(defect({1, 2, 3, 4}, FaceType::kQuad4), HasSubstr("is concave or folded"));
+  EXPECT_THAT(defect({0, 1, 4, 3}, FaceType::kQuad4), HasSubstr("is concave or folded"));
   EXPECT_THAT(defect({0, 1, 3, 2}, FaceType::kQuad4), HasSubstr("has no area"));
   EXPECT_THAT(defect({0, 2, 4}, FaceType::kTri3), HasSubstr("has no area"));
 }

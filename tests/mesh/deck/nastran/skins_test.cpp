@@ -46,11 +46,10 @@ TEST(NastranSkins, ALinearShellLiesOnAQuadraticFace) {
             mesh::nodes_of(linear.mesh.surface("pid_2")));
 }
 
-TEST(NastranSkins, OtherShellsAreRefusedUnlessTheDeckHasNoProperties) {
-  const std::string wall = "CQUAD4,10,2,1,2,9,5\n";
-  EXPECT_THAT(
-      refusal(kCube + wall + "PSHELL,2,1,.5\nENDDATA\n"),
-      HasSubstr("t.bdf:14: card CQUAD4 is not supported (no shells yet): 1 of them are not"));
+TEST(NastranSkins, OthersBetweenSolidsAreRefusedUnlessTheDeckHasNoProperties) {
+  const std::string wall = "CQUAD4,10,2,1,2,9,5\n", across = "CQUAD4,10,2,1,2,7,8\n";
+  EXPECT_THAT(refusal(kCube + across + "PSHELL,2,1,.5\nENDDATA\n"),
+              HasSubstr("t.bdf:14: found 1 CQUAD4 whose corners all belong to solids"));
   std::string bare = kCube;
   bare.erase(0, bare.find("GRID"));
   const auto deck = read_deck(bare + wall + "ENDDATA\n");

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// S3 to S8R with a *SHELL SECTION beside solids.
+#include <gmock/gmock.h>
+
+#include "mesh/deck/recipe/recipe.hpp"
+#include "tests/mesh/deck/abaqus/support.hpp"
+
+namespace clatter::mesh::deck::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// Two squares along x, of nodes 1 to 6.
+const std::string kSheetNodes =
+    "*NODE, NSET=ALL\n1, 0, 0, 0\n2, 1, 0, 0\n3, 2, 0, 0\n4, 0, 1, 0\n5, 1, 1, 0\n6, 2, 1, 0\n"
+    "*MATERIAL, NAME=Steel\n*ELASTIC\n2.1E5, 0.3\n*DENSITY\n7.8E-9\n";
+const std::string kShellSection = "*SHELL SECTION, ELSET=WALL, MATERIAL=STEEL\n.2, 5\n";
+const std::string kTwoShells =
+    kSheetNodes + "*ELEMENT, TYPE=S4, ELSET=WALL\n11, 1, 2, 5, 4\n12, 2, 3, 6, 5\n";
+const std::string kSheetDeck = kTwoShells + kShellSection;
+
+std::string notes_of(const Deck& deck) {
+  std::string all;
+  for (const std::string& note : deck.notes) all += note + "\n";
+  return all;
+}
+
+TEST(AbaqusShells, AreCellsOfTheRegionOfTheirSection) {
+  const Deck deck = read(kSheetDeck);
+  EXPECT_THAT(deck.mesh.regions, ElementsAre("WALL"));
+  EXPECT_EQ(deck.regions.at(0).material, "Steel");
+  EXPECT_EQ(deck.mesh.nodes.rows(), 6);
+  const ShellBlock& block = deck.mesh.shells.at(0);
+  EXPECT_EQ(block.type, FaceType::kQuad4);
+  EXPECT_THAT(block.ids, ElementsAre(11, 12));
+  EXPECT_EQ(block.nodes.row(1), (Eigen::RowVector<int32_t, 4>(1, 2, 5, 4)));
+  EXPECT_EQ(deck.shells.at(0).section.thickness, 0.2);
+  EXPECT_EQ(deck.shells.at(0).section.shear, 5.0 / 6.0);
+}
+
+TEST(AbaqusShells, OffsetAndDensityAreThoseOfTheSection) {
+  const auto with = [](const std::string& parameter) {
+    return kTwoShells + "*SHELL SECTION, ELSET=WALL, MATERIAL=STEEL, " + parameter + "\n.2\n";
+  };
+  EXPECT_EQ(read(with("OFFSET=SPOS")).mesh.shells.at(0).offset, Eigen::Vector2d(-0.1, -0.1));
+  EXPECT_EQ(read(with("OFFSET=-.25")).mesh.shells.at(0).offset, Eigen::Vector2d(0.05, 0.05));
+  EXPECT_EQ(read(with("DENSITY=3.")).shells.at(0).section.area_mass, 3.0);
+  EXPECT_THAT(refusal(with("OFFSET=FIELD")), HasSubstr("found OFFSET=FIELD, expected a number"));
+  EXPECT_THAT(refusal(with("COMPOSITE")), HasSubstr("COMPOSITE: shells of layers are not read"));
+  EXPECT_THAT(refusal(with("ORIENTATION=A")), HasSubstr("ORIENTATION"));
+}
+
+TEST(AbaqusShells, ThicknessMayBeThatOfNodes) {
+  const std::string nodal =
+      kTwoShells + "*SHELL SECTION, ELSET=WALL, MATERIAL=STEEL, NODAL THICKNESS\n.2\n";
+  const Deck deck = read(nodal + "*NODAL THICKNESS\nALL, .1\n3, .3\n");
+  EXPECT_EQ(deck.mesh.shells.at(0).thickness.row(1), Eigen::RowVector4d(0.1, 0.3, 0.1, 0.1));
+  EXPECT_THAT(refusal(nodal + "*NODAL THICKNESS\n1, .1\n"),
+              HasSubstr("element 11: found no *NODAL THICKNESS of node 2"));
+}
+
+TEST(AbaqusShells, QuadraticAndReducedOnesAreSaid) {
+  const Deck deck = read(kSheetNodes +
+                         "*NODE\n21, .5, 0, 0\n22, 1, .5, 0\n23, .5, 1, 0\n24, 0, .5, 0\n"
+                         "*ELEMENT, TYPE=S8R, ELSET=WALL\n11, 1, 2, 5, 4, 21, 22, 23, 24\n"
+                         "*ELEMENT, TYPE=S4R, ELSET=WALL\n12, 2, 3, 6, 22\n" +
+                         kShellSection);
+  EXPECT_EQ(deck.mesh.shells.at(0).nodes.rows(), 5);
+  EXPECT_EQ(deck.mesh.node_ids.back(), 25);
+  EXPECT_THAT(notes_of(deck), HasSubstr("1 S8R: each is four linear shells between its nodes"));
+  EXPECT_THAT(notes_of(deck), HasSubstr("S4R, S8R are read with full integration"));
+}
+
+TEST(AbaqusShells, TheirNodesTurn) {
+  Deck deck = read(kSheetDeck +
+                   "*NSET, NSET=FIX\n1, 4\n*BOUNDARY\nFIX, 1, 6\n*STEP\n*STATIC\n"
+                   "*CLOAD\n3, 6, 2.\n*END STEP\n");
+  EXPECT_TRUE(deck.points.empty());
+  EXPECT_EQ(deck.supports.at(0).dofs, kAllDofs);
+  EXPECT_EQ(deck.steps.at(0).forces.at(0).direction, 5);
+  const recipe::File file = recipe_of(deck).file;
+  EXPECT_THAT(file.supports.at(0).directions, ElementsAre(0, 1, 2, 3, 4, 5));
+  EXPECT_EQ(file.supports.at(0).selection.node_set, "FIX");
+  EXPECT_EQ(file.loads.at(0).set, "on_node_3");
+}
+
+TEST(AbaqusShells, PressuresLeaveOnTheSideOfTheNormal) {
+  const Deck deck = read(kSheetDeck +
+                         "*SURFACE, NAME=TOP\nWALL, SPOS\n*SURFACE, NAME=LOW\nWALL, SNEG\n"
+                         "*STEP\n*STATIC\n*DLOAD\nWALL, P, 2.\nWALL, GRAV, 9., 0., 0., -1.\n"
+                         "*DSLOAD\nTOP, P, 3.\n*END STEP\n");
+  const auto first = [&](const std::string& name) {
+    const auto nodes = deck.mesh.surface(name).faces.at(0).nodes.row(0);
+    return std::vector<int32_t>(nodes.begin(), nodes.end());
+  };
+  EXPECT_THAT(first("TOP"), ElementsAre(0, 1, 4, 3));
+  EXPECT_THAT(first("LOW"), ElementsAre(0, 3, 4, 1));
+  ASSERT_EQ(deck.steps.at(0).pressures.size(), 2u);
+  const Step::Pressure& along = deck.steps.at(0).pressures.at(0);
+  EXPECT_EQ(along.value, 2.0);
+  EXPECT_THAT(first(along.surface), ElementsAre(0, 3, 4, 1));
+  EXPECT_EQ(deck.steps.at(0).acceleration, Eigen::Vector3d(0, 0, -9));
+  EXPECT_THAT(refusal(kModel + "*STEP\n*STATIC\n*DLOAD\nEALL, P, 2.\n*END STEP\n"),
+              HasSubstr("found a pressure P on EALL, which has elements that are no shells"));
+  EXPECT_THAT(refusal(kSheetDeck + "*SURFACE, NAME=TOP\nWALL, S3\n"),
+              HasSubstr("found face 'S3' of shells, expected SPOS or SNEG"));
+}
+
+TEST(AbaqusShells, OnesOnNodesOfSolidsAreHinges) {
+  EXPECT_THAT(refusal(kModel +
+                      "*NODE\n21, 0, 0, 2\n22, 1, 0, 2\n"
+                      "*ELEMENT, TYPE=S4, ELSET=WALL\n50, 5, 6, 22, 21\n" +
+                      kShellSection),
+              HasSubstr("found edge 5-6 of shell S4 50 on nodes of solids, which do not turn: a "
+                        "hinge"));
+}
+
+}  // namespace
+}  // namespace clatter::mesh::deck::testing
