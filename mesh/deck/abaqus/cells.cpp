@@ -47,7 +47,7 @@ constexpr std::array<std::string_view, 8> kThinFamilies = {"CPS",  "CPE", "SFM3D
                                                            "STRI", "R3D", "DS",    "S"};
 
 constexpr std::array<std::string_view, 8> kShellTypes = {"S3", "S3R", "S4",  "S4R",
-                                                     "S6", "S8",  "S8R", "STRI65"};
+                                                         "S6", "S8",  "S8R", "STRI65"};
 
 // Corners of the faces by number, as bit masks.
 constexpr unsigned bits(int a, int b, int c, int d = -1) {
