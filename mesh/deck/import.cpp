@@ -76,8 +76,8 @@ Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
 }
 
 void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where, bool say_notes) {
-  if (deck.mesh.cell_count() == 0 && deck.mesh.shells.empty() && deck.springs.empty() && deck.matrices.empty() &&
-      deck.beams.empty())
+  if (deck.mesh.cell_count() == 0 && deck.mesh.shells.empty() && deck.springs.empty() &&
+      deck.matrices.empty() && deck.beams.empty())
     throw InputError(
         fmt::format("{}: found no solid cells, shells, beams and springs, expected some", where));
   settle_beam_ends(deck);

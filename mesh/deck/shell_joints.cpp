@@ -31,7 +31,8 @@ class Clamped {
   }
 
   bool any(const std::vector<NodeIndex>& nodes) const {
-    return std::ranges::any_of(nodes, [&](NodeIndex node) { return is_[static_cast<size_t>(node)]; });
+    return std::ranges::any_of(nodes,
+                               [&](NodeIndex node) { return is_[static_cast<size_t>(node)]; });
   }
 
  private:

@@ -225,8 +225,7 @@ void add_pair(Model& model, const std::string& type, const Fields& fields, int32
     model.deck.rigid.push_back(std::move(rigid));
     return;
   }
-  const bool rotations =
-      node_map.turns(node_map.require(a)) && node_map.turns(node_map.require(b));
+  const bool rotations = node_map.turns(node_map.require(a)) && node_map.turns(node_map.require(b));
   for (int k = 0; k < (type == "TIE" && rotations ? 6 : 3); ++k) {
     equations.push_back({fields.origin(), {{a, k, 1.0}, {b, k, -1.0}}});
   }

@@ -62,8 +62,8 @@ class ShellSections {
     const auto section = static_cast<size_t>(model_.shells.section_of[thin]);
     if (model_.shells.regions[section] < 0) throw FollowUp();
     const ShellGift& gift = gifts_[section];
-    ShellCell cell{element.type, element.id, model_.shells.regions[section],
-                   face_of(model_, thin), -gift.offset * gift.thickness};
+    ShellCell cell{element.type, element.id, model_.shells.regions[section], face_of(model_, thin),
+                   -gift.offset * gift.thickness};
     std::array<double, 4>& t = cell.face.values;
     t.fill(gift.thickness);
     const auto corners = static_cast<size_t>(traits(*element.face).corners);
@@ -95,7 +95,8 @@ class ShellSections {
 
   static double positive(const Fields& fields, size_t i, const char* what) {
     const double value = fields.number(i, what);
-    if (!(value > 0.0)) fields.fail(fmt::format("found a {} of {:g}, expected more than 0", what, value));
+    if (!(value > 0.0))
+      fields.fail(fmt::format("found a {} of {:g}, expected more than 0", what, value));
     return value;
   }
 
@@ -130,8 +131,8 @@ class ShellSections {
     return gift;
   }
 
-  // From the mid-surface to the nodes, along the normal, over the thickness: 0.5 where the nodes are
-  // on the top surface (Abaqus Analysis User's Guide, defining the reference surface).
+  // From the mid-surface to the nodes, along the normal, over the thickness: 0.5 where the nodes
+  // are on the top surface (Abaqus Analysis User's Guide, defining the reference surface).
   double offset_of(const Card& card) const {
     const std::string text = card.keyword().choice("OFFSET", "0");
     if (text == "SPOS") return 0.5;

@@ -257,7 +257,8 @@ std::vector<CellFaceId> faces_named(Model& model, size_t use, const std::string&
       const std::vector<CellFaceId> faces = SurfaceReader(model).faces_of(other, card);
       if (std::ranges::any_of(faces, [&](CellFaceId id) { return model.is_shell(id.first); }))
         model.source.fail(
-            origin, fmt::format("found shells in surface {}, expected faces of solids", shown(name)));
+            origin,
+            fmt::format("found shells in surface {}, expected faces of solids", shown(name)));
       return faces;
     }
   }

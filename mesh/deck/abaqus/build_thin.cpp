@@ -172,7 +172,8 @@ class ThinElements {
   void note_sections() {
     std::map<const Card*, double> areas;
     for (size_t t = 0; t < all_.size(); ++t) {
-      if (section_[t] != nullptr && all_[t].face && !is_shell(t)) areas[section_[t]] += skins_.area(skin_of_[t]);
+      if (section_[t] != nullptr && all_[t].face && !is_shell(t))
+        areas[section_[t]] += skins_.area(skin_of_[t]);
     }
     for (const auto& [card, area] : areas) {
       const double thickness =

@@ -115,9 +115,10 @@ void Loads::add_shell_pressure(size_t use, const Fields& fields, double factor, 
   const double value = factor * fields.number(2, "pressure");
   for (const int32_t element : model_->sets.elements_at(fields, 0, use)) {
     if (!model_->is_shell(element))
-      fields.fail(fmt::format("found a pressure P on {}, which has elements that are no shells, "
-                              "expected P1 to P6 of solids",
-                              fields.text(0)));
+      fields.fail(
+          fmt::format("found a pressure P on {}, which has elements that are no shells, "
+                      "expected P1 to P6 of solids",
+                      fields.text(0)));
     put(faces_, CellFaceId(element, kSneg), Value{value, step, nullptr});
   }
 }
@@ -292,7 +293,8 @@ void Loads::list_rotations(Step& out) const {
     std::vector<bool> turning(mesh.regions.size(), false);
     const auto region_of = [&](size_t i) { return model_->region_of(static_cast<int32_t>(i)); };
     for (size_t i = 0; i < rotation.covered.size(); ++i)
-      if (rotation.covered[i] && region_of(i) >= 0) turning[static_cast<size_t>(region_of(i))] = true;
+      if (rotation.covered[i] && region_of(i) >= 0)
+        turning[static_cast<size_t>(region_of(i))] = true;
     for (size_t i = 0; i < rotation.covered.size(); ++i)
       if (!rotation.covered[i] && region_of(i) >= 0 && turning[static_cast<size_t>(region_of(i))])
         model_->source.fail(rotation.origin,

@@ -23,14 +23,13 @@ namespace clatter::mesh::deck::abaqus {
 
 /// The elements of two dimensions that are shells.
 struct ShellParts {
-  std::vector<int32_t> section_of;        // by thin element: one of *SHELL SECTION; -1: no shell
-  std::vector<int32_t> regions;           // of each section, index into Mesh::regions; -1: refused
-  std::map<int32_t, NodeIndex> centres;   // by thin element: the node that one of eight nodes gets
-  std::vector<ShellHinge> hinges;         // those on nodes of solids
+  std::vector<int32_t> section_of;       // by thin element: one of *SHELL SECTION; -1: no shell
+  std::vector<int32_t> regions;          // of each section, index into Mesh::regions; -1: refused
+  std::map<int32_t, NodeIndex> centres;  // by thin element: the node that one of eight nodes gets
+  std::vector<ShellHinge> hinges;        // those on nodes of solids
 
   int32_t section(int32_t thin) const {
-    return thin < 0 || thin >= std::ssize(section_of) ? -1
-                                                      : section_of[static_cast<size_t>(thin)];
+    return thin < 0 || thin >= std::ssize(section_of) ? -1 : section_of[static_cast<size_t>(thin)];
   }
 };
 

@@ -60,7 +60,7 @@ class NodeMap {
   const Numbering& numbering_;
   Deck& deck_;
   std::vector<int32_t> mesh_node_;
-  std::vector<bool> turns_;  // by mesh node
+  std::vector<bool> turns_;                                // by mesh node
   std::map<std::pair<int32_t, int32_t>, int32_t> copies_;  // by cell and row
   std::map<int32_t, NodeIndex> point_of_;                  // by row; also points on mesh nodes
   std::map<int32_t, NodeIndex> rotation_of_;               // by row

@@ -94,8 +94,7 @@ std::pair<NodeIndex, DofMask> held_dofs(const Model& model, int32_t row, DofMask
     return {rotated, static_cast<DofMask>((mask & kTranslations) << 3)};
   }
   const NodeIndex node_index = model.node_map.find(row);
-  if (node_index == NodeMap::kNone || model.node_map.turns(node_index))
-    return {node_index, mask};
+  if (node_index == NodeMap::kNone || model.node_map.turns(node_index)) return {node_index, mask};
   return {node_index, static_cast<DofMask>(mask & kTranslations)};
 }
 

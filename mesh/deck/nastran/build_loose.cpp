@@ -216,7 +216,8 @@ class Loose {
 }  // namespace
 
 void drop_loose(Model& model, Ignore& ignore) {
-  if (model.raw.lost_grids.empty() || model.node_map.node_count() == 0 || model.refusals.any()) return;
+  if (model.raw.lost_grids.empty() || model.node_map.node_count() == 0 || model.refusals.any())
+    return;
   Loose loose(model);
   const std::string what = loose.describe();
   if (!what.empty() && !ignore.skips(kLooseGrids)) {

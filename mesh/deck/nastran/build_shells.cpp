@@ -81,7 +81,8 @@ class ShellProperties {
       if (without_shear_++ == 0) first_without_shear_ = raw.origin;
       section.shear = 5.0 / 6.0 * shear_of(bending) / shear_of(sheet);
     } else {
-      section.shear = raw.shear_ratio * shear_of(isotropic(property, raw, raw.shear)) / shear_of(sheet);
+      section.shear =
+          raw.shear_ratio * shear_of(isotropic(property, raw, raw.shear)) / shear_of(sheet);
     }
     section.area_mass = raw.area_mass * model_.raw.control.mass_factor;
     if (!(section.thickness >= 0.0) || !(section.bending > 0.0) || !(section.shear > 0.0) ||
@@ -98,11 +99,11 @@ class ShellProperties {
     if (found != model_.raw.materials.end())
       card = found->second.kind == Material::Kind::kIsotropic ? "MAT1" : "MAT9";
     if (card == "MAT1") return material_of(model_, id);
-    model_.source.fail(raw.origin,
-                       card.empty() ? fmt::format("PSHELL {}: found no material {}", property, id)
-                                    : fmt::format("PSHELL {}: material {} is a {}, expected a MAT1: "
-                                                  "sheets of isotropic material are read",
-                                                  property, id, card));
+    model_.source.fail(
+        raw.origin, card.empty() ? fmt::format("PSHELL {}: found no material {}", property, id)
+                                 : fmt::format("PSHELL {}: material {} is a {}, expected a MAT1: "
+                                               "sheets of isotropic material are read",
+                                               property, id, card));
   }
 
   Model& model_;

@@ -36,7 +36,8 @@ constexpr const char* kBars =
     "no curved bars; ignore = [\"{0}\"] drops their stiffness and mass: CBAR along chords replace "
     "them";
 constexpr const char* kShearPanels =
-    "no shear panels; ignore = [\"{0}\"] drops their stiffness and mass: a CQUAD4 with a thin PSHELL "
+    "no shear panels; ignore = [\"{0}\"] drops their stiffness and mass: a CQUAD4 with a thin "
+    "PSHELL "
     "and its stringers as CBAR replace them";
 constexpr const char* kBarLoads =
     "loads along bars are not read; ignore = [\"{0}\"] drops them: FORCE and MOMENT on their grids "

@@ -17,7 +17,8 @@ class ShellFinder {
       : model_(model), mesh_node_(mesh_node), solids_(mesh_node) {}
 
   bool is_shell(const RawSkin& skin) const {
-    const auto corners = std::span(skin.grids).first(static_cast<size_t>(traits(skin.type).corners));
+    const auto corners =
+        std::span(skin.grids).first(static_cast<size_t>(traits(skin.type).corners));
     return std::ranges::any_of(
         corners, [&](int32_t grid) { return solids_[row_of(skin, grid)] == NodeMap::kNone; });
   }
@@ -25,8 +26,8 @@ class ShellFinder {
   // The nodes of a shell are nodes of the mesh.
   void take(RawSkin& skin) {
     if (skin.missing > 0)
-      fail(skin, fmt::format("found {} of its mid-side grids blank, expected all or none",
-                             skin.missing));
+      fail(skin,
+           fmt::format("found {} of its mid-side grids blank, expected all or none", skin.missing));
     ShellFace face{.type = skin.type};
     std::array<Eigen::Vector3d, kMaxFaceNodes> at{};
     for (size_t i = 0; i < static_cast<size_t>(traits(skin.type).nodes); ++i) {

@@ -51,12 +51,12 @@ class Model {
   IdIndex grids;  // row of a GRID
   Systems systems;
   Deck deck;
-  NodeMap node_map;              // empty until the mesh is built
-  IdIndex cells;                 // numbered across all blocks of the mesh
-  std::optional<IdIndex> skins;  // row of a two-dimensional cell in raw.skins; made when needed
-  std::optional<IdIndex> shells;  // the same of raw.shell_cells
+  NodeMap node_map;                // empty until the mesh is built
+  IdIndex cells;                   // numbered across all blocks of the mesh
+  std::optional<IdIndex> skins;    // row of a two-dimensional cell in raw.skins; made when needed
+  std::optional<IdIndex> shells;   // the same of raw.shell_cells
   std::vector<ShellHinge> hinges;  // shells on nodes of solids
-  int64_t lost_loads = 0;        // forces on grids of ignored cells
+  int64_t lost_loads = 0;          // forces on grids of ignored cells
   std::map<NodeIndex, NodeIndex> hung;  // point of a mass beside a node of solids -> that node
 
  private:
@@ -107,8 +107,8 @@ void build_bars(Model& model);
 void build_matrices(Model& model);
 /// BGSET -> ties.
 void build_glue(Model& model);
-/// CQUAD4 and the like that are no shells: faces of solids -> Mesh::surfaces; others are refused, or
-/// left out by the user.
+/// CQUAD4 and the like that are no shells: faces of solids -> Mesh::surfaces; others are refused,
+/// or left out by the user.
 void build_skins(Model& model, Ignore& ignore);
 /// What hangs on grids of ignored cells alone: refused together, or dropped by the user.
 void drop_loose(Model& model, Ignore& ignore);
@@ -151,7 +151,8 @@ struct SkinLoad {
   RawPressure pressure;
   LoadedFace face;
 };
-/// Shells of these numbers, and faces of solids on which two-dimensional cells of these numbers lie.
+/// Shells of these numbers, and faces of solids on which two-dimensional cells of these numbers
+/// lie.
 std::vector<SkinLoad> loads_on_skins(Model& model, const RawSkinPressure& raw);
 /// Forces on the nodes of a pressure that varies over a face or acts along a vector.
 std::vector<Step::NodalForce> forces_on_face(Model& model, const RawPressure& raw,

@@ -89,9 +89,8 @@ class Parser : public CardSink {
     const auto has_cells = [](const Section& s) { return !s.left_out && !s.raw.blocks.empty(); };
     auto chosen = std::find_if(sections_.begin(), sections_.end(), has_cells);
     if (chosen == sections_.end())
-      chosen = std::find_if(sections_.begin(), sections_.end(), [](const Section& s) {
-        return !s.left_out && !s.raw.skins.empty();
-      });
+      chosen = std::find_if(sections_.begin(), sections_.end(),
+                            [](const Section& s) { return !s.left_out && !s.raw.skins.empty(); });
     if (chosen == sections_.end())
       chosen = std::find_if(sections_.begin(), sections_.end(),
                             [](const Section& s) { return !s.left_out; });

@@ -13,6 +13,7 @@
 #include "mesh/deck/nastran/card.hpp"
 #include "mesh/deck/nastran/control.hpp"
 #include "mesh/deck/nastran/raw_bars.hpp"
+#include "mesh/deck/nastran/raw_skins.hpp"
 
 namespace clatter::mesh::deck::nastran {
 
@@ -64,33 +65,6 @@ struct RawSystem {
   std::array<int32_t, 3> grids{};
   int32_t reference = 0;
   std::array<double, 9> points{};  // A, B, C
-};
-
-/// CTRIA3, CTRIA6, CTRIAR, CQUAD4, CQUAD8, CQUADR: a face of solids, or a shell.
-struct RawSkin {
-  std::string kind;
-  FaceType type = FaceType::kTri3;
-  int32_t id = 0, property = 0;
-  Origin origin = 0;
-  std::array<int32_t, kMaxFaceNodes> grids{};
-  int32_t missing = 0;                // mid-side grids, where it has others and is linear
-  double offset = 0.0;                // ZOFFS
-  bool is_relative = false;           // TFLAG: thickness over that of the property
-  std::array<double, 4> thickness{};  // at the corners; NaN: that of the property
-  int32_t centre = kNoRow;            // row of the node that a shell of eight grids gets
-};
-
-struct RawShell {  // PSHELL, PCOMP, PCOMPG
-  Origin origin = 0;
-  std::string card;
-  std::string refusal;        // why no shell can have it; "" for none
-  int32_t material = 0;       // 0: none; also of the next two
-  int32_t bending = 0;        // MID2
-  int32_t shear = 0;          // MID3
-  double thickness = 0.0;     // 0: not known
-  double inertia = 1.0;       // 12 I / T^3
-  double shear_ratio = 0.0;   // TS / T
-  double area_mass = 0.0;     // NSM
 };
 
 struct RawSolid {  // PSOLID

@@ -48,15 +48,17 @@ void take_sheet(const Card& card, RawShell& shell) {
   shell.shear_ratio = card.number_or(6, "TS/T", 5.0 / 6.0);
   shell.area_mass = card.number_or(7, "NSM", 0.0);
   if (!card.blank(10))
-    shell.refusal = "MID4 joins stretching to bending, which is not read: ZOFFS of its cells or "
-                    "two sheets replace it";
+    shell.refusal =
+        "MID4 joins stretching to bending, which is not read: ZOFFS of its cells or "
+        "two sheets replace it";
   else if (shell.material == 0)
     shell.refusal = "MID1 is blank: a plate that nothing holds in its plane, expected a MAT1";
   else if (shell.bending == -1)
     shell.refusal = "MID2 is -1: plane strain is not read, expected MID2 = MID1 of a sheet";
   else if (shell.bending == 0)
-    shell.refusal = "MID2 is blank: a membrane, whose grids nothing holds across it, expected "
-                    "MID2 = MID1 of a sheet";
+    shell.refusal =
+        "MID2 is blank: a membrane, whose grids nothing holds across it, expected "
+        "MID2 = MID1 of a sheet";
 }
 
 }  // namespace
@@ -86,8 +88,9 @@ void read_pshell(const Card& card, RawDeck& raw) {
   if (shell.card == "PSHELL")
     take_sheet(card, shell);
   else
-    shell.refusal = "shells of layers are not read: a PSHELL with a MAT1 of their mean stiffness "
-                    "replaces them";
+    shell.refusal =
+        "shells of layers are not read: a PSHELL with a MAT1 of their mean stiffness "
+        "replaces them";
   if (!raw.shells.emplace(card.id(0, "PID"), shell).second) card.fail(0, "found a second one");
 }
 

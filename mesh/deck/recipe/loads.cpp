@@ -133,8 +133,7 @@ class StepLoads {
       for (const Support& support : *of_step) all.push_back(&support);
     for (const Support* support : all) {
       if (support->value == 0.0) continue;
-      for (const auto& [mask, some] :
-           names_.by_directions(support->node_indices, support->dofs)) {
+      for (const auto& [mask, some] : names_.by_directions(support->node_indices, support->dofs)) {
         const NamedNodes named = names_.node_indices(some, set_name(*support));
         for (const int part : {mask & kTranslations, mask & ~kTranslations}) {
           if (!named.node_set.empty()) prescribe(*support, part, {.node_set = named.node_set});

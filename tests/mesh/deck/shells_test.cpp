@@ -50,8 +50,7 @@ TEST(OrientShells, NeighboursOfOtherBlocksAgreeToo) {
 }
 
 TEST(OrientShells, AnEdgeOfThreeShellsDividesThem) {
-  std::vector<ShellBlock> shells = {
-      block(FaceType::kTri3, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}})};
+  std::vector<ShellBlock> shells = {block(FaceType::kTri3, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}})};
   EXPECT_EQ(orient_shells(shells), 0);
 }
 

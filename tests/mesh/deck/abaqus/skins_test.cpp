@@ -60,9 +60,8 @@ TEST(AbaqusSkins, ShellsWithASectionAreRefusedWhereNoSolidHasTheirFace) {
             "deck.inp:25: 2 elements S4 are shells whose nodes all belong to solids, which do not "
             "turn; ignore = [\"S4\"] leaves out their stiffness and mass: [[spring]], [[coupling]] "
             "and [[point_mass]] of the recipe replace them");
-  EXPECT_THAT(refusal(kModel +
-                      "*ELEMENT, TYPE=S4R5, ELSET=WALL\n50, 1, 2, 9, 8\n"
-                      "*SHELL SECTION, ELSET=WALL, MATERIAL=STEEL\n2.\n"),
+  EXPECT_THAT(refusal(kModel + "*ELEMENT, TYPE=S4R5, ELSET=WALL\n50, 1, 2, 9, 8\n"
+                               "*SHELL SECTION, ELSET=WALL, MATERIAL=STEEL\n2.\n"),
               HasSubstr("1 elements S4R5 are shells or membranes beside the solids, which are not "
                         "read, expected S3 S3R S4 S4R S6 S8 S8R STRI65 with a *SHELL SECTION"));
 }

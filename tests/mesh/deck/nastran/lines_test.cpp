@@ -167,7 +167,8 @@ TEST(NastranFormat, UnknownCardsAreNamedAndCanBeIgnored) {
   const std::string deck = kTet + "CQUAD4,5,2,1,2,3,4\nCQUAD4,6,2,1,2,3,4\n";
   EXPECT_EQ(
       refusal(deck),
-      "t.bdf:8: found 2 CQUAD4 whose corners all belong to solids and that are no outer face: nodes "
+      "t.bdf:8: found 2 CQUAD4 whose corners all belong to solids and that are no outer face: "
+      "nodes "
       "of solids do not turn, so as shells they hang on hinges; ignore = [\"CQUAD4\"] leaves out "
       "their stiffness and mass, nodes of their own with an RBE2 or RBE3 to the solid clamp them");
   EXPECT_EQ(read_deck(deck, {"cquad4"}).ignored.at("CQUAD4"), 2);

@@ -147,7 +147,7 @@ TEST(NastranPressure, ValuesThatDifferGetSurfacesOfTheirOwn) {
 TEST(NastranPressure, WhatIsNotPressureOnASolidIsRefused) {
   EXPECT_THAT(refusal(kTet + "PLOAD4,3,1,5.\n"), HasSubstr("G1 of solid 1: found nothing"));
   EXPECT_THAT(refusal(kTet + "PLOAD4,3,7,5.,,,,THRU,9\n"),
-              HasSubstr("found no two-dimensional cell 7 on a face of a solid"));
+              HasSubstr("found no shell 7 and no two-dimensional cell of this number on a face"));
   EXPECT_THAT(refusal(kTet + "PLOAD,3,5.,1,2,9\nGRID,9\n"),
               HasSubstr("PLOAD: grid 9 belongs to no solid"));
   EXPECT_THAT(refusal(kTet + "PLOAD4,3,2,5.,,,,1,3\n"), HasSubstr("found no solid 2"));

@@ -18,7 +18,8 @@ const std::string kSheetGrids =
     "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,2.,0.,0.\n"
     "GRID,4,,0.,1.,0.\nGRID,5,,1.,1.,0.\nGRID,6,,2.,1.,0.\nGRID,7,,9.,0.,0.\n";
 const std::string kSheetSection = "MAT1,1,210.,,.3,7.8\nPSHELL,2,1,.1,1,,1\n";
-const std::string kTwoShells = kSheetSection + kSheetGrids + "CQUAD4,11,2,1,2,5,4\nCQUAD4,12,2,2,3,6,5\n";
+const std::string kTwoShells =
+    kSheetSection + kSheetGrids + "CQUAD4,11,2,1,2,5,4\nCQUAD4,12,2,2,3,6,5\n";
 
 std::string notes_of(const Deck& deck) {
   std::string all;
@@ -49,10 +50,9 @@ TEST(NastranShells, AreCellsOfARegionWithItsSection) {
 }
 
 TEST(NastranShells, ThicknessAndOffsetOfACellAreItsOwn) {
-  const auto deck =
-      read_deck(kSheetSection + kSheetGrids +
-                "CQUAD4,11,2,1,2,5,4,,.05,+\n+,,,.1,.2,.3,.4\n"
-                "CTRIA3,12,2,2,3,6,,,+\n+,,1,.5,2.\nCTRIA3,13,2,2,6,5\n");
+  const auto deck = read_deck(kSheetSection + kSheetGrids +
+                              "CQUAD4,11,2,1,2,5,4,,.05,+\n+,,,.1,.2,.3,.4\n"
+                              "CTRIA3,12,2,2,3,6,,,+\n+,,1,.5,2.\nCTRIA3,13,2,2,6,5\n");
   const mesh::ShellBlock &quad = deck.mesh.shells.at(1), &triangles = deck.mesh.shells.at(0);
   EXPECT_EQ(quad.thickness.row(0), Eigen::RowVector4d(0.1, 0.2, 0.3, 0.4));
   EXPECT_EQ(quad.offset(0), 0.05);
@@ -90,7 +90,8 @@ TEST(NastranShells, SectionsCountTheStiffnessOfTheirMaterials) {
 }
 
 TEST(NastranShells, WhatASectionCannotBeIsRefusedByName) {
-  const std::string cells = kSheetGrids + "MAT1,1,200.,,.25\nMAT1,3,100.,,.3\nMAT8,8,1.,1.,.3,1.\n" +
+  const std::string cells = kSheetGrids +
+                            "MAT1,1,200.,,.25\nMAT1,3,100.,,.3\nMAT8,8,1.,1.,.3,1.\n" +
                             "CQUAD4,11,2,1,2,5,4\n";
   const auto of = [&](const std::string& property) { return refusal(cells + property); };
   EXPECT_THAT(of("PSHELL,2,1,.1\n"), HasSubstr("PSHELL 2: MID2 is blank: a membrane"));
@@ -120,13 +121,18 @@ TEST(NastranShells, QuadraticOnesAreFourLinearOnes) {
   EXPECT_EQ(deck.mesh.node_ids.back(), 27);
   EXPECT_TRUE(deck.mesh.nodes.row(11).isApprox(Eigen::RowVector3d(0.5, 0.5, 0.0), 1e-15));
   EXPECT_THAT(notes_of(deck), HasSubstr("1 CQUAD8, 1 CTRIA6: each is four linear shells"));
-  EXPECT_EQ(read_deck(kSheetSection + kSheetGrids + "CQUAD8,11,2,1,2,5,4\n").mesh.shells.at(0).nodes.rows(), 1);
+  EXPECT_EQ(read_deck(kSheetSection + kSheetGrids + "CQUAD8,11,2,1,2,5,4\n")
+                .mesh.shells.at(0)
+                .nodes.rows(),
+            1);
   EXPECT_THAT(refusal(kSheetSection + kSheetGrids + middle + "CQUAD8,11,2,1,2,5,4,21,22\n"),
               HasSubstr("CQUAD8 11: found 2 of its mid-side grids blank, expected all or none"));
 }
 
 TEST(NastranShells, FacesThatAreNoneAreRefusedWithNumberAndPosition) {
-  const auto of = [&](const std::string& cell) { return refusal(kSheetSection + kSheetGrids + cell); };
+  const auto of = [&](const std::string& cell) {
+    return refusal(kSheetSection + kSheetGrids + cell);
+  };
   EXPECT_THAT(of("CQUAD4,11,2,1,5,2,4\n"),
               HasSubstr("t.bdf:10: CQUAD4 11 at node 1 (0, 0, 0) has no area"));
   EXPECT_THAT(of("CTRIA3,11,2,1,2,3\n"), HasSubstr("CTRIA3 11 at node 1 (0, 0, 0) has no area"));
@@ -134,7 +140,8 @@ TEST(NastranShells, FacesThatAreNoneAreRefusedWithNumberAndPosition) {
   EXPECT_THAT(of("GRID,21,,0.,0.,.3\nGRID,22,,1.,0.,-.3\nGRID,23,,1.,1.,.3\n"
                  "GRID,24,,0.,1.,-.3\nCQUAD4,11,2,21,22,23,24\n"),
               HasSubstr("CQUAD4 11 at node 21 (0, 0, 0.3) is warped by 0.6 of its size"));
-  const auto warped = read_deck(kSheetSection + kSheetGrids + "GRID,8,,0.,1.,.4\nCQUAD4,11,2,1,2,5,8\n");
+  const auto warped =
+      read_deck(kSheetSection + kSheetGrids + "GRID,8,,0.,1.,.4\nCQUAD4,11,2,1,2,5,8\n");
   EXPECT_THAT(notes_of(warped), HasSubstr("1 shells are warped by more than 0.1 of their size"));
   const auto triangle = read_deck(kSheetSection + kSheetGrids + "CQUAD4,11,2,1,2,5,5\n");
   EXPECT_EQ(triangle.mesh.shells.at(0).type, FaceType::kTri3);
@@ -206,8 +213,7 @@ TEST(NastranShells, AMeshWithoutPropertiesHasRegionsWithoutASection) {
 }
 
 TEST(NastranShells, BarsEndOnThemWithoutAHinge) {
-  const auto deck = read_deck(kTwoShells +
-                              "PBAR,3,1,1.,1.,1.,1.\nCBAR,70,3,1,2,0.,0.,1.\n");
+  const auto deck = read_deck(kTwoShells + "PBAR,3,1,1.,1.,1.,1.\nCBAR,70,3,1,2,0.,0.,1.\n");
   EXPECT_EQ(deck.beams.at(0).ends, (std::array<int32_t, 2>{0, 1}));
   EXPECT_EQ(deck.beams.at(0).sections.at(0).J, 1.0);
 }
