@@ -14,7 +14,6 @@
 #include "mesh/deck/beam_ends.hpp"
 #include "mesh/deck/cell_repair.hpp"
 #include "mesh/deck/nastran/reader.hpp"
-#include "mesh/deck/shell_joints.hpp"
 
 namespace clatter::mesh::deck {
 namespace {
@@ -76,12 +75,11 @@ Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
 }
 
 void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where, bool say_notes) {
-  if (deck.mesh.cell_count() == 0 && deck.mesh.shells.empty() && deck.springs.empty() && deck.matrices.empty() &&
-      deck.beams.empty())
+  if (deck.mesh.cell_count() == 0 && deck.mesh.shells.empty() && deck.springs.empty() &&
+      deck.matrices.empty() && deck.beams.empty())
     throw InputError(
         fmt::format("{}: found no solid cells, shells, beams and springs, expected some", where));
   settle_beam_ends(deck);
-  note_cold_shells(deck);
   std::ranges::move(repair_cells(deck.mesh, where), std::back_inserter(deck.renumbered));
   for (const Support& retained : deck.retained)
     if (!retained.system.empty())
