@@ -196,9 +196,10 @@ sparse::SupernodalFactor factor_of(const fe::FeModel& model) {
 std::vector<fe::RegionStress> stresses_of(const fe::FeModel& model, const StaticCase& solved) {
   std::vector<fe::RegionStress> all =
       fe::nodal_stress(model.nodes, model.cells, solved.displacement, solved.temperature_rise);
-  std::ranges::move(fe::shell_stress(model.nodes, model.cells, solved.displacement,
-                                     model.rotations.nodes, solved.rotation),
-                    std::back_inserter(all));
+  std::ranges::move(
+      fe::shell_stress(model.nodes, model.cells, solved.displacement, model.rotations.nodes,
+                       solved.rotation, solved.temperature_rise),
+      std::back_inserter(all));
   return all;
 }
 

@@ -91,6 +91,13 @@ Eigen::VectorXd temperature_rise(const mesh::Mesh& mesh, const LoadSpec& load,
   return mesh.fields.at(load.field).col(0).array() - load.amount;
 }
 
+/// Of the thermal strains of solids and shells (n_dofs).
+Eigen::VectorXd thermal_force(const PartData& part, const Eigen::VectorXd& dT) {
+  Eigen::VectorXd forces = shell_thermal_load(part, dT);
+  forces.head(3 * part.mesh.nodes.rows()) += thermal_load(part.mesh, part.recipe.materials, dT);
+  return forces;
+}
+
 /// Force and moment on a point.
 Eigen::VectorXd point_force(const DofNumbers& numbers, int32_t point, const LoadSpec& load) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(numbers.count());
@@ -120,8 +127,7 @@ Eigen::VectorXd nodal_forces(const PartData& part, const LoadSpec& load, const L
     case LoadSpec::Kind::kAcceleration:  // of a field
       return inputs.of_fields.at(load.name);
     case LoadSpec::Kind::kTemperature:
-      return thermal_load(part.mesh, part.recipe.materials,
-                          temperature_rise(part.mesh, load, inputs.heat));
+      return thermal_force(part, temperature_rise(part.mesh, load, inputs.heat));
     case LoadSpec::Kind::kForce:
     case LoadSpec::Kind::kCentrifugal:
     case LoadSpec::Kind::kDisplacement:

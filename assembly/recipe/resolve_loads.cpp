@@ -99,9 +99,13 @@ Eigen::VectorXd Resolver::rise_of_regions(const LoadSpec& load) const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(names_.mesh.nodes.rows()), regions = sum;
   for (size_t r = 0; r < rise.size(); ++r) {
     std::vector<bool> inside(static_cast<size_t>(sum.size()), false);
-    for (const mesh::CellBlock& block : names_.mesh.cells)
-      if (static_cast<size_t>(block.region) == r)
-        for (const int32_t node : block.nodes.reshaped()) inside[node] = true;
+    const auto mark = [&](const auto& blocks) {
+      for (const auto& block : blocks)
+        if (static_cast<size_t>(block.region) == r)
+          for (const int32_t node : block.nodes.reshaped()) inside[node] = true;
+    };
+    mark(names_.mesh.cells);
+    mark(names_.mesh.shells);
     for (Eigen::Index a = 0; a < sum.size(); ++a)
       if (inside[a]) sum(a) += rise[r], regions(a) += 1.0;
   }
@@ -125,11 +129,13 @@ void Resolver::finish_temperature(LoadSpec& load) {
                            [](const fe::Material& one) { return !one.expansion.isZero(0.0); }))
     load.source.fail("kind", "found temperature, no material has an expansion");
   for (const mesh::ShellBlock& block : names_.mesh.shells)
-    if (!materials_[block.region].expansion.isZero(0.0))
+    if ((materials_[block.region].expansion.head<3>().array() !=
+         materials_[block.region].expansion(0))
+            .any())
       load.source.fail("kind",
                        fmt::format("found temperature and the shells of region \"{}\", whose "
-                                   "expansion is not computed, expected a material of "
-                                   "theirs without expansion",
+                                   "material expands differently along its axes, expected one "
+                                   "value of expansion",
                                    names_.mesh.regions[block.region]));
   if (!load.rises.empty()) {
     load.node_rises = rise_of_regions(load);

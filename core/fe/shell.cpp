@@ -11,7 +11,11 @@ namespace {
 
 using SectionMatrix = Eigen::Matrix<double, kShellStrains, kShellStrains>;
 using InnerByNodes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kShellInner, 24>;
+using NodeVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 24, 1>;
+using InnerVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kShellInner, 1>;
 constexpr int kMaxRows = 6 * kShellStrains;  // of all points
+using PointRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxRows, kShellColumns>;
+using PointStrains = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRows, 1>;
 
 template <class Body>
 auto with_theory(const MidSurface& mid, const Body& body) {
@@ -35,16 +39,36 @@ SectionMatrix section_at(const ShellStiffness& s, double ratio) {
   return C;
 }
 
-/// Stiffness of the mid-surface, and the inner DoFs by those of the nodes.
+/// Nodes that move by their positions, and do not turn.
+NodeVector stretch_of(const ShellCell& cell) {
+  NodeVector u = NodeVector::Zero(6 * cell.x.rows());
+  for (Eigen::Index i = 0; i < cell.x.rows(); ++i) u.segment<3>(6 * i) = cell.x.row(i);
+  return u;
+}
+
+/// Thermal strains at all points, by the strains of the DoFs there.
+PointStrains thermal_strains(const ShellTheory& theory, const ShellCell& cell,
+                             const PointRows& strain, const Eigen::VectorXd& warm) {
+  PointStrains out = strain.leftCols(theory.node_columns()).lazyProduct(stretch_of(cell));
+  const mesh::FaceRule& rule = theory.rule();
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
+    out.segment<kShellStrains>(kShellStrains * q) *=
+        mesh::face_shape(cell.type, rule.points.row(q).transpose()).value.dot(warm);
+  return out;
+}
+
+/// Stiffness of the mid-surface, and the inner DoFs by those of the nodes: inner u + warm.
 struct Condensed {
   ShellMatrix K;
   InnerByNodes inner;
+  InnerVector warm;  // of thermal strains
+  NodeVector force;  // of thermal strains
 };
 
-Condensed condense(const ShellTheory& theory, const ShellCell& cell) {
+Condensed condense(const ShellTheory& theory, const ShellCell& cell, const Eigen::VectorXd& warm) {
   const mesh::FaceRule& rule = theory.rule();
   const Eigen::Index points = rule.weights.size(), n = theory.node_columns(), c = theory.columns();
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxRows, kShellColumns> strain, force;
+  PointRows strain, force;
   strain.resize(kShellStrains * points, c);
   force.resize(kShellStrains * points, c);
   for (Eigen::Index q = 0; q < points; ++q) {
@@ -61,8 +85,15 @@ Condensed condense(const ShellTheory& theory, const ShellCell& cell) {
       K.bottomRightCorner(c - n, c - n);
   Condensed out;
   // LDL^T: where the section does not resist, inner DoFs are zero.
-  out.inner = -own.ldlt().solve(K.bottomLeftCorner(c - n, n));
+  const auto factor = own.ldlt();
+  out.inner = -factor.solve(K.bottomLeftCorner(c - n, n));
   out.K = K.topLeftCorner(n, n) + K.topRightCorner(n, c - n).lazyProduct(out.inner);
+  out.warm.setZero(c - n);
+  if (warm.size() == 0) return out;
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kShellColumns, 1> f =
+      force.transpose().lazyProduct(thermal_strains(theory, cell, strain, warm));
+  out.warm = factor.solve(f.tail(c - n));
+  out.force = f.head(n) + out.inner.transpose().lazyProduct(f.tail(c - n));
   return out;
 }
 
@@ -140,7 +171,7 @@ bool compute_shell(const ShellCell& cell, MassForm form, ShellMatrices& out) {
   const MidSurface mid(cell);
   return with_theory(mid, [&](const ShellTheory& theory) {
     if (!theory.is_shell()) return false;
-    const ShellMatrix K = condense(theory, cell).K;
+    const ShellMatrix K = condense(theory, cell, {}).K;
     out.stiffness = 0.5 * (K + K.transpose());
     out.mass = mass_of(mid, cell, form);
     to_nodes(cell.offset, cell.directors, out.stiffness);
@@ -152,18 +183,31 @@ bool compute_shell(const ShellCell& cell, MassForm form, ShellMatrices& out) {
 }
 
 ShellStrains shell_strains(const ShellCell& cell, const Eigen::VectorXd& u,
-                           const Eigen::Vector2d& at) {
+                           const Eigen::Vector2d& at, const Eigen::VectorXd& warm) {
   const MidSurface mid(cell);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 24, 1> moved = u;
+  NodeVector moved = u;
   for (Eigen::Index i = 0; i < cell.x.rows(); ++i)
     moved.segment<3>(6 * i) +=
         cross_matrix(cell.offset * cell.directors.row(i)) * u.segment<3>(6 * i + 3);
   return with_theory(mid, [&](const ShellTheory& theory) {
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kShellColumns, 1> all(theory.columns());
-    all << moved, condense(theory, cell).inner * moved;
+    const Condensed condensed = condense(theory, cell, warm);
     const SurfacePoint p(mid, at);
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kShellColumns, 1> all(theory.columns());
+    all << moved, condensed.inner * moved + condensed.warm;
+    if (warm.size() > 0) all.head(moved.size()) -= p.h.dot(warm) * stretch_of(cell);
     const Eigen::Matrix<double, kShellStrains, 1> e = theory.strain(p) * all;
     return ShellStrains{e.head<3>(), e.segment<3>(3), e.segment<2>(6), p.axes, ratio_at(cell, p.h)};
+  });
+}
+
+Eigen::VectorXd shell_thermal_force(const ShellCell& cell, const Eigen::VectorXd& warm) {
+  const MidSurface mid(cell);
+  return with_theory(mid, [&](const ShellTheory& theory) {
+    Eigen::VectorXd force = condense(theory, cell, warm).force;
+    for (Eigen::Index i = 0; i < cell.x.rows(); ++i)
+      force.segment<3>(6 * i + 3) +=
+          cross_matrix(cell.offset * cell.directors.row(i)).transpose() * force.segment<3>(6 * i);
+    return force;
   });
 }
 

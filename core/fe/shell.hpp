@@ -55,9 +55,16 @@ struct ShellStrains {
   double ratio = 1.0;  // of the thickness there
 };
 
-/// Of displacements `u` (6n), also of what the cell has beside its nodes.
+/// Those that cause stress, of displacements `u` (6n), also of what the cell has beside its nodes.
 /// @param at r, s of the reference cell: -1 to 1 of a quad4; 0 to 1 of a tri3.
+/// @param warm of shell_thermal_force(), or empty.
 ShellStrains shell_strains(const ShellCell& cell, const Eigen::VectorXd& u,
-                           const Eigen::Vector2d& at);
+                           const Eigen::Vector2d& at, const Eigen::VectorXd& warm = {});
+
+/// Nodal forces (6n) of thermal strains with all nodes fixed: int B^T C (sum h_i warm_i) B x dA.
+/// B x are the strains of nodes that move by their positions: 1 1 0 of the membrane of a flat cell.
+/// With the same in a warped cell, or one beside its nodes, free expansion causes no stress.
+/// @param warm alpha dT of each node (n) [1], uniform through the thickness.
+Eigen::VectorXd shell_thermal_force(const ShellCell& cell, const Eigen::VectorXd& warm);
 
 }  // namespace clatter::fe

@@ -37,9 +37,11 @@ Voigt stress_at(const ShellStrains& strains, const Material& material, double z)
 
 using Corners = std::array<std::pair<Voigt, Voigt>, 4>;  // outer, inner
 
-Corners corner_stress(const ShellCell& cell, const Material& material, const Eigen::VectorXd& u) {
+/// @param warm alpha dT of the nodes, or empty.
+Corners corner_stress(const ShellCell& cell, const Material& material, const Eigen::VectorXd& u,
+                      const Eigen::VectorXd& warm) {
   const auto both = [&](const Eigen::Vector2d& at) {
-    const ShellStrains strains = shell_strains(cell, u, at);
+    const ShellStrains strains = shell_strains(cell, u, at, warm);
     const double z = 0.5 * cell.thickness * strains.ratio;
     return std::pair(stress_at(strains, material, z), stress_at(strains, material, -z));
   };
@@ -116,7 +118,7 @@ Eigen::VectorXd moved(const mesh::ShellBlock& block, Eigen::Index cell, const Ei
 std::vector<RegionStress> shell_stress(const RowMatrix& nodes, const FeCells& cells,
                                        const Eigen::VectorXd& u,
                                        const std::vector<int32_t>& turning,
-                                       const Eigen::VectorXd& theta) {
+                                       const Eigen::VectorXd& theta, const Eigen::VectorXd& dT) {
   mesh::Mesh mesh;
   mesh.nodes = nodes;
   const std::vector<RowMatrix> directors = shell_directors(nodes, cells.shells);
@@ -127,7 +129,10 @@ std::vector<RegionStress> shell_stress(const RowMatrix& nodes, const FeCells& ce
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       const ShellCell cell =
           shell_cell(mesh, block, c, directors[b], cells.sections[block.region], material);
-      const Corners corners = corner_stress(cell, material, moved(block, c, u, turning, theta));
+      Eigen::VectorXd warm;
+      if (dT.size() > 0) warm = material.expansion(0) * dT(block.nodes.row(c));
+      const Corners corners =
+          corner_stress(cell, material, moved(block, c, u, turning, theta), warm);
       for (Eigen::Index a = 0; a < block.nodes.cols(); ++a)
         add(regions[block.region][block.nodes(c, a)], cell.directors.row(a).transpose(),
             corners[a]);

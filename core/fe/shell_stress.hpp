@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Stresses at the two faces of shells: sigma = C (e +- t/2 k) under plane stress.
+// Stresses at the two faces of shells: sigma = C (e +- t/2 k) under plane stress, e and k without
+// thermal strains.
 //
 // Strains of a quadrilateral are evaluated at its 2 x 2 points and extrapolated to the corners,
 // those of a triangle are taken at its centre. At a node they are averaged over the cells of one
@@ -15,10 +16,10 @@ namespace clatter::fe {
 
 /// Of each region with shells: "<region> (outer)" on the outward side, then "<region> (inner)".
 /// @param u 3 n_nodes [m]. @param turning nodes with rotations, ascending. @param theta 3 each
-/// [rad].
+/// [rad]. @param dT temperature rise (n_nodes) [K], or empty.
 std::vector<RegionStress> shell_stress(const RowMatrix& nodes, const FeCells& cells,
                                        const Eigen::VectorXd& u,
                                        const std::vector<int32_t>& turning,
-                                       const Eigen::VectorXd& theta);
+                                       const Eigen::VectorXd& theta, const Eigen::VectorXd& dT);
 
 }  // namespace clatter::fe

@@ -30,7 +30,7 @@ void settle_beam_ends(Deck& deck) {
       std::ranges::find_if(deck.steps, [](const Step& step) { return !step.temperature.empty(); });
   if (heated != deck.steps.end() && !deck.beams.empty())
     deck.notes.push_back(
-        fmt::format("{}: its temperatures expand solids alone: the {} bars of the deck do not",
+        fmt::format("{}: its temperatures expand solids and shells: the {} bars do not",
                     heated->where, deck.beams.size()));
 }
 

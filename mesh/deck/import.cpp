@@ -14,7 +14,6 @@
 #include "mesh/deck/beam_ends.hpp"
 #include "mesh/deck/cell_repair.hpp"
 #include "mesh/deck/nastran/reader.hpp"
-#include "mesh/deck/shell_joints.hpp"
 
 namespace clatter::mesh::deck {
 namespace {
@@ -81,7 +80,6 @@ void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where, 
     throw InputError(
         fmt::format("{}: found no solid cells, shells, beams and springs, expected some", where));
   settle_beam_ends(deck);
-  note_cold_shells(deck);
   std::ranges::move(repair_cells(deck.mesh, where), std::back_inserter(deck.renumbered));
   for (const Support& retained : deck.retained)
     if (!retained.system.empty())

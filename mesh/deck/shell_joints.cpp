@@ -74,12 +74,4 @@ void refuse_hinges(const Deck& deck, const std::vector<ShellHinge>& hinges, Refu
       count == 1 ? "" : fmt::format(" ({} shells have such nodes)", count)));
 }
 
-void note_cold_shells(Deck& deck) {
-  const auto heated =
-      std::ranges::find_if(deck.steps, [](const Step& step) { return !step.temperature.empty(); });
-  if (heated != deck.steps.end() && !deck.mesh.shells.empty())
-    deck.notes.push_back(fmt::format(
-        "{}: its temperatures expand solids alone: the shells of the deck do not", heated->where));
-}
-
 }  // namespace clatter::mesh::deck

@@ -23,7 +23,4 @@ std::vector<bool> turning_flags(const Mesh& mesh);
 /// of one of these nodes: hinges.
 void refuse_hinges(const Deck& deck, const std::vector<ShellHinge>& hinges, Refusals& refusals);
 
-/// Notes that shells do not expand in steps with temperatures.
-void note_cold_shells(Deck& deck);
-
 }  // namespace clatter::mesh::deck

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shells in a model: what is held, joined and loaded turns too.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/base/artefact.hpp"
@@ -107,6 +109,86 @@ TEST(Sheet, OffsetMovesTheMassAndBendsByThePullOfItsNodes) {
               1000.0 * kL / (kE * kB * kT) + 0.003 * 0.003 * 1000.0 * kL / (kE * kI), 1e-9);
 }
 
+constexpr double kGrows = 1e-5, kKelvin = 80.0, kContracts = 0.3;
+
+/// Of steel that expands.
+std::string warm_sheet(double nu, const std::string& section = "") {
+  return fmt::format(
+      "[material.steel]\nregions = [\"sheet\"]\nE = 2e11\nnu = {:.1f}\nrho = 8000.0\n"
+      "expansion = 1e-5\n[[shell]]\nregions = [\"sheet\"]\nthickness = 0.002\n{}",
+      nu, section);
+}
+
+const std::string kWarmLoad = "[[load]]\nname = \"warm\"\nkind = \"temperature\"\n";
+
+std::string held_side(const std::string& nodes, const std::string& directions) {
+  return fmt::format("[[support]]\nname = \"{0}\"\nnode_set = \"{0}\"\ndirections = [{1}]\n", nodes,
+                     directions);
+}
+
+/// Largest von Mises stress of both faces.
+double largest_of(const StaticCase& one) {
+  return std::max(one.stress.at(0).von_mises.maxCoeff(), one.stress.at(1).von_mises.maxCoeff());
+}
+
+TEST(Sheet, ExpandsFreelyByRegionsAndEverywhere) {
+  // A node inside moves off the grid: no cell of its four is a parallelogram. Its sides along the
+  // axes slide.
+  mesh::Mesh mesh = sheet(kL, kB, 4, 2);
+  mesh.nodes.row(7) += Eigen::RowVector3d(0.03, 0.008, 0.0);
+  for (const char* rise : {"value = 80.0\n", "regions = { sheet = 80.0 }\n"}) {
+    const StaticCase warm = only_case(build_all(mesh, warm_sheet(kContracts) + kWarmLoad + rise +
+                                                          held_side("x0", "\"x\", \"z\"") +
+                                                          held_side("y0", "\"y\", \"z\""))
+                                          .model);
+    double error = 0.0;
+    for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
+      error = std::max(error, (warm.displacement.segment<3>(3 * a) -
+                               kGrows * kKelvin * mesh.nodes.row(a).transpose())
+                                  .norm());
+    EXPECT_LE(error, 1e-10 * kGrows * kKelvin * kL);
+    EXPECT_LE(warm.rotation.cwiseAbs().maxCoeff(), 1e-10 * kGrows * kKelvin);
+    EXPECT_LE(largest_of(warm), 1e-10 * kE * kGrows * kKelvin);
+  }
+}
+
+TEST(Sheet, HeldInItsPlaneAndWarmIsPressedFromBothSides) {
+  const fe::FeModel model =
+      build_all(sheet(kL, kB, 4, 2), warm_sheet(kContracts) + kWarmLoad + "value = 80.0\n" +
+                                         held_side("x0", "\"x\", \"z\"") +
+                                         held_side("x1", "\"x\", \"z\"") +
+                                         held_side("y0", "\"y\"") + held_side("y1", "\"y\""))
+          .model;
+  const StaticCase warm = only_case(model);
+  const double pressed = kE * kGrows * kKelvin / (1.0 - kContracts);
+  for (const fe::RegionStress& face : warm.stress)
+    for (Eigen::Index a = 0; a < face.stress.rows(); ++a) {
+      EXPECT_NEAR(face.stress(a, 0), -pressed, 1e-9 * pressed);
+      EXPECT_NEAR(face.stress(a, 1), -pressed, 1e-9 * pressed);
+    }
+  EXPECT_NEAR(warm.support_sums(0, 0), pressed * kB * kT, 1e-9 * pressed * kB * kT);
+}
+
+TEST(Sheet, HeldBesideItsMiddleAndWarmItBends) {
+  // Ends held at their nodes, c below the middle, free to turn: with the force N along,
+  // L (alpha dT + N / (E A) + N c^2 / (E I)) = 0; the moment is -N c.
+  constexpr double c = 0.003;
+  const StaticCase warm =
+      only_case(build_all(sheet(kL, kB, 16, 2),
+                          warm_sheet(0.0, "offset = 0.003\n") + kWarmLoad + "value = 80.0\n" +
+                              held_side("x0", "\"x\", \"z\"") + held_side("x1", "\"x\", \"z\"") +
+                              held_side("tip", "\"y\""))
+                    .model);
+  const double N = -kGrows * kKelvin / (1.0 / (kE * kB * kT) + c * c / (kE * kI));
+  const double k = -N * c / (kE * kI);
+  EXPECT_NEAR(warm.rotation(3 * 16 + 1), 0.5 * kL * k, 1e-8 * kL * k);
+  EXPECT_NEAR(warm.displacement(3 * 8 + 2), kL * kL * k / 8.0, 1e-8 * kL * kL * k);
+  EXPECT_NEAR(warm.support_sums(0, 0), -N, -1e-8 * N);
+  const double bent = 0.5 * kE * kT * k;
+  EXPECT_NEAR(warm.stress.at(0).stress(8, 0), N / (kB * kT) + bent, 1e-8 * bent);
+  EXPECT_NEAR(warm.stress.at(1).stress(8, 0), N / (kB * kT) - bent, 1e-8 * bent);
+}
+
 TEST(Sheet, ComesBackFromItsFile) {
   const auto path = test::scratch_path("sheet.fe.h5");
   const fe::FeModel model = clamped_strip("");
@@ -137,9 +219,10 @@ TEST(Sheet, RefusesWhatItIsNot) {
                      {"regions: found \"lid\", expected one of: sheet"});
   test::expect_parts(
       refused("[material.steel]\nregions = [\"sheet\"]\nE = 2e11\nnu = 0.0\nrho = 8000.0\n"
-              "expansion = 1e-5\n[[shell]]\nregions = [\"sheet\"]\nthickness = 0.002\n"
-              "[[load]]\nname = \"warm\"\nkind = \"temperature\"\n"),
-      {"found temperature and the shells of region \"sheet\"", "without expansion"});
+              "expansion = [1e-5, 1e-5, 2e-5]\n[[shell]]\nregions = [\"sheet\"]\n"
+              "thickness = 0.002\n[[load]]\nname = \"warm\"\nkind = \"temperature\"\n"),
+      {"kind: found temperature and the shells of region \"sheet\"", "along its axes",
+       "one value of expansion"});
 }
 
 }  // namespace

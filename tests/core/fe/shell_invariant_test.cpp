@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shells as rigid bodies: no strain, no drift, the mass of a slab.
+// Shells as rigid bodies and warmed: no strain, no drift, the mass of a slab.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -50,6 +50,22 @@ TEST_P(ShellOfNodes, RigidMotionsHaveNoForce) {
     const ShellMatrix K = matrices_of(cell).stiffness;
     const Eigen::MatrixXd force = K * rigid_motions(cell.x);
     EXPECT_LE(force.cwiseAbs().maxCoeff(), 1e-14 * K.cwiseAbs().maxCoeff());  // rounding
+  }
+}
+
+TEST_P(ShellOfNodes, FreeExpansionHasNoForceAndNoStress) {
+  constexpr double kWarmed = 1e-3;  // alpha dT
+  const Eigen::VectorXd warm = Eigen::VectorXd::Constant(GetParam(), kWarmed);
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const ShellCell cell = odd_cell(GetParam(), seed);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(6 * GetParam());
+    for (int i = 0; i < GetParam(); ++i) u.segment<3>(6 * i) = kWarmed * cell.x.row(i).transpose();
+    const Eigen::VectorXd held = shell_thermal_force(cell, warm);
+    EXPECT_GT(held.norm(), 0.1 * kWarmed * kPlate.E * kPlate.thickness);
+    EXPECT_LE((matrices_of(cell).stiffness * u - held).norm(), 1e-12 * held.norm());  // rounding
+    const ShellStrains e = shell_strains(cell, u, {0.3, 0.2}, warm);
+    EXPECT_LE(e.membrane.norm() + e.curvature.norm() + e.shear.norm(), 1e-12 * kWarmed);
+    EXPECT_GT(shell_strains(cell, u, {0.3, 0.2}).membrane.norm(), 0.5 * kWarmed);
   }
 }
 

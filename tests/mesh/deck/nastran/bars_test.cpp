@@ -134,7 +134,7 @@ TEST(NastranBar, EndsOnNodesOfSolidsAreHingesAndSaid) {
   warm.temperature = "field";
   settle_beam_ends(deck);
   EXPECT_THAT(deck.notes.back(),
-              HasSubstr("t.bdf:3: its temperatures expand solids alone: the 3 "));
+              HasSubstr("t.bdf:3: its temperatures expand solids and shells: the 3 bars "));
 }
 
 TEST(NastranBar, WithoutMeaningIsRefusedByLine) {
