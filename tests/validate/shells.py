@@ -3,6 +3,7 @@
 
     tests/validate/shells.py           prints the tables
     tests/validate/shells.py --write   puts them into docs/validation.md
+    tests/validate/shells.py --draw    draws four modes of the pan instead: assembly/pan.png
 
 The pan is that of `../shared/reference/shells/pan.py`, which is not part of the repository.
 """
@@ -13,9 +14,13 @@ import tempfile
 
 import docs_table
 import h5py
+import matplotlib
 import numpy as np
+from matplotlib import pyplot
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from stage_run import BIN, SOURCE, run
 
+matplotlib.use("Agg")
 PAN = SOURCE.parent / "shared/reference/shells/pan.py"
 # CalculiX, two layers of C3D20R, 5 mm [Hz], modes 1 to 12: free at 1.5 mm, free at .8 mm, at 1.5 mm tied to a frame.
 SOLIDS = {
@@ -37,19 +42,49 @@ def benchmarks():
             for line in said.stdout.splitlines() if line.startswith("| ")]
 
 
+def solve(folder, level, options):
+    """a.modes.h5 in `folder` of a pan of S4 with sides of 10 mm / level: eighteen modes."""
+    subprocess.run([sys.executable, PAN, "pan.inp", "--cells", "s4", "--level", str(level),
+                    *(["--t", "1.5"] if "--t" not in options else []), *options],
+                   check=True, capture_output=True, cwd=folder)
+    run("mesh", "pan.inp", "--units", "mm-t-s", "-o", "a.mesh.h5", "--recipe", "a.fe.toml", folder=folder)
+    run("assembly", "a.mesh.h5", "-c", "a.fe.toml", "-o", "a.fe.h5", folder=folder)
+    run("modal", "a.fe.h5", "--count", "18", "-o", "a.modes.h5", folder=folder)
+
+
 def elastic_frequencies(level, options):
-    """The first twelve of a pan of `level` times 10 mm / level, of S4 [Hz]."""
+    """The first twelve [Hz]."""
     with tempfile.TemporaryDirectory(prefix="clatter-pan-") as name:
         folder = pathlib.Path(name)
-        subprocess.run([sys.executable, PAN, "pan.inp", "--cells", "s4", "--level", str(level),
-                        *(["--t", "1.5"] if "--t" not in options else []), *options],
-                       check=True, capture_output=True, cwd=folder)
-        run("mesh", "pan.inp", "--units", "mm-t-s", "-o", "a.mesh.h5", "--recipe", "a.fe.toml", folder=folder)
-        run("assembly", "a.mesh.h5", "-c", "a.fe.toml", "-o", "a.fe.h5", folder=folder)
-        run("modal", "a.fe.h5", "--count", "18", "-o", "a.modes.h5", folder=folder)
+        solve(folder, level, options)
         with h5py.File(folder / "a.modes.h5") as file:
             hz = file["frequency_hz"][()]
     return hz[hz > 1.0][:12]
+
+
+def draw(path):
+    """Modes 1, 2, 4 and 8 of the free pan, coloured by how far they move."""
+    with tempfile.TemporaryDirectory(prefix="clatter-pan-") as name:
+        folder = pathlib.Path(name)
+        solve(folder, 2, [])
+        with h5py.File(folder / "a.mesh.h5") as mesh, h5py.File(folder / "a.modes.h5") as modes:
+            nodes, quads = 1e3 * mesh["nodes"][()], mesh["shells/0/nodes"][()]
+            hz, shapes = modes["frequency_hz"][()], modes["shapes"][()]
+    figure = pyplot.figure(figsize=(10, 6.4))
+    for place, mode in enumerate((6, 7, 9, 13)):
+        moved = shapes[mode]
+        size = np.linalg.norm(moved, axis=1)
+        at = nodes + 25.0 * moved / size.max()
+        axes = figure.add_axes([0.5 * (place % 2), 0.5 - 0.5 * (place // 2), 0.5, 0.46], projection="3d")
+        colours = pyplot.cm.viridis((size / size.max())[quads].mean(axis=1))
+        sheet = Poly3DCollection(at[quads], facecolors=colours, edgecolors=colours, linewidths=0.3)
+        sheet.set_clip_on(False)
+        axes.add_collection3d(sheet)
+        axes.set(xlim=(-150, 150), ylim=(-150, 150), zlim=(-40, 100), title=f"mode {mode - 5}: {hz[mode]:.1f} Hz")
+        axes.set_box_aspect((300, 300, 140), zoom=1.35)
+        axes.view_init(elev=38, azim=-60)
+        axes.set_axis_off()
+    figure.savefig(path, dpi=80)
 
 
 def pan_row(case, cells, level, options):
@@ -58,6 +93,9 @@ def pan_row(case, cells, level, options):
 
 
 def main():
+    if "--draw" in sys.argv[1:]:
+        draw(SOURCE / "assembly/pan.png")
+        return
     docs_table.finish("shell_benchmarks", docs_table.markdown(
         ("case, mesh", "quad4", "quad4 distorted", "tri3", "tri3 distorted"), benchmarks()), sys.argv[1:])
     docs_table.finish("pan", docs_table.markdown(
