@@ -12,40 +12,37 @@
 namespace clatter::mesh {
 namespace {
 
-CellBlock read_block(const H5File& file, const std::string& group, const std::string& where) {
-  CellBlock block;
-  block.type = cell_type_named(file.get_string(group, "type"), where + ": " + group);
+/// What cells and shells have alike.
+template <class Block>
+void read_block(const H5File& file, const std::string& group, Block& block) {
   block.region = static_cast<int32_t>(file.get_int(group, "region"));
   block.nodes = file.read_index_matrix(group + "/nodes");
   if (file.has(group + "/ids")) block.ids = file.read_ints(group + "/ids");
-  return block;
 }
 
-void write_block(H5File& file, const CellBlock& block, const std::string& group) {
+template <class Block>
+void write_block(H5File& file, const Block& block, const std::string& group) {
   file.write(group + "/nodes", block.nodes);
   file.set(group, "type", std::string(traits(block.type).name));
   file.set(group, "region", static_cast<int64_t>(block.region));
   if (!block.ids.empty()) file.write(group + "/ids", block.ids);
 }
 
-ShellBlock read_shell(const H5File& file, const std::string& group, const std::string& where) {
+CellBlock read_cell_block(const H5File& file, const std::string& group, const std::string& where) {
+  CellBlock block;
+  block.type = cell_type_named(file.get_string(group, "type"), where + ": " + group);
+  read_block(file, group, block);
+  return block;
+}
+
+ShellBlock read_shell_block(const H5File& file, const std::string& group,
+                            const std::string& where) {
   ShellBlock block;
   block.type = face_type_named(file.get_string(group, "type"), where + ": " + group);
-  block.region = static_cast<int32_t>(file.get_int(group, "region"));
-  block.nodes = file.read_index_matrix(group + "/nodes");
-  if (file.has(group + "/ids")) block.ids = file.read_ints(group + "/ids");
+  read_block(file, group, block);
   if (file.has(group + "/thickness")) block.thickness = file.read_rows(group + "/thickness");
   if (file.has(group + "/offset")) block.offset = file.read_vector(group + "/offset");
   return block;
-}
-
-void write_shell(H5File& file, const ShellBlock& block, const std::string& group) {
-  file.write(group + "/nodes", block.nodes);
-  file.set(group, "type", std::string(traits(block.type).name));
-  file.set(group, "region", static_cast<int64_t>(block.region));
-  if (!block.ids.empty()) file.write(group + "/ids", block.ids);
-  if (block.thickness.size() > 0) file.write(group + "/thickness", block.thickness);
-  if (block.offset.size() > 0) file.write(group + "/offset", block.offset);
 }
 
 void refuse_invalid_cells(const Mesh& mesh, const std::string& where) {
@@ -79,20 +76,24 @@ std::vector<CellBlock> read_cells(const H5File& file) {
   std::vector<CellBlock> cells;
   const size_t n_blocks = file.list("cells").size();
   for (size_t b = 0; b < n_blocks; ++b)
-    cells.push_back(read_block(file, fmt::format("cells/{}", b), file.path().string()));
+    cells.push_back(read_cell_block(file, fmt::format("cells/{}", b), file.path().string()));
   return cells;
 }
 
 void write_shells(H5File& file, const std::vector<ShellBlock>& shells) {
-  for (size_t b = 0; b < shells.size(); ++b)
-    write_shell(file, shells[b], fmt::format("shells/{}", b));
+  for (size_t b = 0; b < shells.size(); ++b) {
+    const std::string group = fmt::format("shells/{}", b);
+    write_block(file, shells[b], group);
+    if (shells[b].thickness.size() > 0) file.write(group + "/thickness", shells[b].thickness);
+    if (shells[b].offset.size() > 0) file.write(group + "/offset", shells[b].offset);
+  }
 }
 
 std::vector<ShellBlock> read_shells(const H5File& file) {
   std::vector<ShellBlock> shells;
   const size_t n_blocks = file.list("shells").size();
   for (size_t b = 0; b < n_blocks; ++b)
-    shells.push_back(read_shell(file, fmt::format("shells/{}", b), file.path().string()));
+    shells.push_back(read_shell_block(file, fmt::format("shells/{}", b), file.path().string()));
   return shells;
 }
 
