@@ -115,8 +115,8 @@ std::vector<Dependence> tie(const PartData& part, const TieSpec& given, int32_t 
     std::array<Functional, 3> rows;
     const int32_t own = part.numbers.rotation_of(row.node);
     if (arm.norm() > kNoArm * size)
-      rows = own < 0 ? rotation_rows(row, arm, mesh.nodes, spec.where)
-                     : own_rotation_rows(own, arm);
+      rows =
+          own < 0 ? rotation_rows(row, arm, mesh.nodes, spec.where) : own_rotation_rows(own, arm);
     for (int d = 0; d < 3; ++d) {
       const int32_t dof = 3 * row.node + d;
       if (graph.is_held(dof)) {

@@ -22,7 +22,7 @@ struct FeCells {
   std::vector<mesh::CellBlock> blocks;  // cells by type and region
   std::vector<mesh::ShellBlock> shells;
   std::vector<ShellSection> sections;  // one per region; of those with shells
-  std::vector<int32_t> node_ids;        // node numbers of an imported mesh; empty: index + 1
+  std::vector<int32_t> node_ids;       // node numbers of an imported mesh; empty: index + 1
 
   /// User-visible node number.
   int32_t label(int32_t node) const { return node_ids.empty() ? node + 1 : node_ids[node]; }

@@ -29,8 +29,8 @@ struct RegionMaterial {
   std::vector<std::string> regions;
 };
 
-/// [[shell]]: the section of the shells of some regions, where the mesh has no thickness or offset of
-/// its own.
+/// [[shell]]: the section of the shells of some regions, where the mesh has no thickness or offset
+/// of its own.
 struct Shell {
   Source source{};
   std::vector<std::string> regions{};

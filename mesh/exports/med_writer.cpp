@@ -32,7 +32,8 @@ std::vector<int32_t> by_columns(const std::vector<std::vector<int32_t>>& rows) {
 
 class MedWriter {
  public:
-  MedWriter(const Mesh& mesh, PlainH5& file) : mesh_(mesh), file_(file) {
+  MedWriter(const Mesh& mesh, PlainH5& file)
+      : mesh_(mesh), file_(file), numbers_(export_cell_numbers(mesh)) {
     name_ = mesh.name.substr(0, kLongestMesh);
     std::replace(name_.begin(), name_.end(), '/', '_');
     if (name_.empty()) name_ = "part";
@@ -113,7 +114,6 @@ class MedWriter {
   }
 
   void solids() {
-    const auto numbers = export_cell_numbers(mesh_);
     for (size_t b = 0; b < mesh_.cells.size(); ++b) {
       const CellBlock& block = mesh_.cells[b];
       const CellTraits& cell = traits(block.type);
@@ -123,8 +123,7 @@ class MedWriter {
         std::vector<int32_t>& row = elements.nodes.emplace_back();
         for (const int i : cell.to_med) row.push_back(block.nodes(c, i) + 1);
         elements.families.push_back(own);
-        elements.numbers.push_back(numbers[b][c]);
-        last_ = std::max(last_, elements.numbers.back());
+        elements.numbers.push_back(numbers_[b][c]);
       }
     }
   }
@@ -132,14 +131,18 @@ class MedWriter {
   void faces() {
     std::vector<std::string> names;
     for (const auto& [name, surface] : mesh_.surfaces) names.push_back(name);
-    for (const ExportFace& face : export_faces(mesh_)) {
+    const std::vector<std::string> regions = export_region_names(mesh_);
+    const std::vector<ExportFace> all = export_faces(mesh_);
+    int32_t last = largest_cell_number(numbers_, all);
+    for (const ExportFace& face : all) {
       std::vector<std::string> groups;
+      if (face.region >= 0) groups.push_back(regions[face.region]);
       for (const size_t surface : face.surfaces) groups.push_back(names[surface]);
       Elements& elements = elements_[std::string(traits(face.type).med_name)];
       std::vector<int32_t>& row = elements.nodes.emplace_back();
       for (const int32_t node : face.nodes) row.push_back(node + 1);
       elements.families.push_back(family(cell_families_, groups, -1));
-      elements.numbers.push_back(++last_);
+      elements.numbers.push_back(face.region < 0 ? ++last : face.number);
     }
   }
 
@@ -183,7 +186,7 @@ class MedWriter {
   std::string name_, root_, step_;
   std::map<std::string, Elements> elements_;  // by MED's name of the type
   std::map<std::vector<std::string>, int32_t> node_families_, cell_families_;  // by groups
-  int32_t last_ = 0;                                                           // element number
+  std::vector<std::vector<int32_t>> numbers_;                                  // of the solids
 };
 
 }  // namespace

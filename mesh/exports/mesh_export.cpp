@@ -28,6 +28,18 @@ void warn_of_hanging_mid_side_nodes(const Mesh& mesh, const std::filesystem::pat
                   path.string(), set->second.size(), kHangingMidSideNodes));
 }
 
+/// Only Nastran's cells have a thickness and an offset of their own.
+void warn_of_sections(const Mesh& mesh, const std::filesystem::path& path) {
+  int64_t count = 0;
+  for (const ShellBlock& block : mesh.shells)
+    if (block.thickness.size() > 0 || block.offset.size() > 0) count += block.nodes.rows();
+  if (count == 0) return;
+  warn(
+      fmt::format("{}: {} shells have a thickness or an offset of their own, which only .bdf, .nas "
+                  "and .dat contain: give them sections in the other program",
+                  path.string(), count));
+}
+
 template <std::string (*kText)(const Mesh&)>
 void write_text(const Mesh& mesh, const std::filesystem::path& path) {
   write_whole_file(path, kText(mesh));
@@ -53,11 +65,10 @@ void check_export(const std::filesystem::path& path) { writer_of(path); }
 
 void export_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   const Writer write = writer_of(path);
-  if (!mesh.shells.empty() && path.extension() != ".vtu")
-    throw InputError(fmt::format(
-        "{}: found the shells of region \"{}\", expected solids alone: only .vtu has shells",
-        path.string(), mesh.regions[mesh.shells[0].region]));
-  if (path.extension() != ".vtu") warn_of_hanging_mid_side_nodes(mesh, path);
+  if (path.extension() != ".vtu") {
+    warn_of_hanging_mid_side_nodes(mesh, path);
+    if (write != static_cast<Writer>(deck::write_nastran)) warn_of_sections(mesh, path);
+  }
   write(mesh, path);
 }
 

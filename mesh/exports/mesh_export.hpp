@@ -15,8 +15,8 @@ namespace clatter::mesh {
 ///  .unv  I-DEAS universal file (unv_writer.hpp)
 ///  .inp  Abaqus and CalculiX (deck/abaqus/writer.hpp)
 ///  .bdf, .nas, .dat  Nastran (deck/nastran/writer.hpp)
-/// All keep the numbers of an imported mesh, its sets and surfaces; decks and .msh read back as the
-/// same mesh.
+/// All keep the numbers of an imported mesh, its sets and surfaces; decks and .msh of solids read
+/// back as the same mesh. Warns of shells whose own thickness or offset the format does not have.
 void export_mesh(const Mesh& mesh, const std::filesystem::path& path);
 
 /// InputError where export_mesh knows no format for the extension: asked before long work.

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "mesh/deck/shell_numbers.hpp"
+#include "mesh/exports/export_groups.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -46,7 +48,10 @@ class MshWriter {
         mesh_.node_sets.size() + mesh_.surfaces.size() + mesh_.regions.size());
     for (const auto& [set, rows] : mesh_.node_sets) name(0, set);
     for (const auto& [surface, faces] : mesh_.surfaces) name(2, surface);
-    for (const std::string& region : mesh_.regions) name(3, region);
+    std::vector<int> dimension(mesh_.regions.size(), 3);
+    for (const ShellBlock& block : mesh_.shells) dimension[block.region] = 2;
+    const std::vector<std::string> regions = export_region_names(mesh_);
+    for (size_t r = 0; r < regions.size(); ++r) name(dimension[r], regions[r]);
     put("$EndPhysicalNames\n");
   }
 
@@ -74,14 +79,27 @@ class MshWriter {
     for (const auto& [name, rows] : mesh_.node_sets) count += static_cast<int64_t>(rows.size());
     for (const auto& [name, surface] : mesh_.surfaces) count += surface.face_count();
     put("$Elements\n{}\n", count);
-    const size_t before = mesh_.node_sets.size() + mesh_.surfaces.size() + 1;
-    for (const CellBlock& block : mesh_.cells)
-      for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-        const int64_t id = block.ids.empty() ? last_ + 1 : block.ids[c];
-        last_ = std::max(last_, id);
-        element(id, traits(block.type).gmsh_type, before + static_cast<size_t>(block.region),
-                block.nodes.row(c));
-      }
+    std::vector<std::vector<int32_t>> numbers;
+    for (const CellBlock& block : mesh_.cells) {
+      numbers.push_back(block.ids);
+      for (const int32_t id : block.ids) last_ = std::max<int64_t>(last_, id);
+      while (std::ssize(numbers.back()) < block.nodes.rows())
+        numbers.back().push_back(static_cast<int32_t>(++last_));
+    }
+    for (size_t b = 0; b < mesh_.cells.size(); ++b) block_of_region(mesh_.cells[b], numbers[b]);
+    numbers = deck::shell_numbers(mesh_, numbers);
+    for (size_t b = 0; b < mesh_.shells.size(); ++b) block_of_region(mesh_.shells[b], numbers[b]);
+  }
+
+  template <class Block>
+  void block_of_region(const Block& block, const std::vector<int32_t>& numbers) {
+    const size_t group = mesh_.node_sets.size() + mesh_.surfaces.size() + 1;
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
+      const int32_t id = numbers[static_cast<size_t>(c)];
+      last_ = std::max<int64_t>(last_, id);
+      element(id, traits(block.type).gmsh_type, group + static_cast<size_t>(block.region),
+              block.nodes.row(c));
+    }
   }
 
   void faces() {

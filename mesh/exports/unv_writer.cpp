@@ -29,7 +29,8 @@ class UnvWriter {
       : mesh_(mesh),
         node_numbers_(export_node_numbers(mesh)),
         cell_numbers_(export_cell_numbers(mesh)),
-        faces_(export_faces(mesh)) {}
+        faces_(export_faces(mesh)),
+        last_(largest_cell_number(cell_numbers_, faces_)) {}
 
   std::string run() {
     begin(164);
@@ -44,10 +45,11 @@ class UnvWriter {
     end();
     begin(2412);
     for (size_t b = 0; b < mesh_.cells.size(); ++b) cells(b);
-    for (const ExportFace& face : faces_) {
-      face_numbers_.push_back(++last_);
-      element(last_, deck::unv_kind(face.type), static_cast<int>(mesh_.regions.size()) + 1,
-              face.nodes);
+    const auto no_region = static_cast<int32_t>(mesh_.regions.size());
+    for (ExportFace& face : faces_) {
+      if (face.region < 0) face.number = ++last_;
+      element(face.number, deck::unv_kind(face.type),
+              (face.region < 0 ? no_region : face.region) + 1, face.nodes);
     }
     end();
     begin(2467);
@@ -82,10 +84,8 @@ class UnvWriter {
       throw InputError(fmt::format("mesh '{}': universal files have no element for {}", mesh_.name,
                                    traits(block.type).name));
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-      const int32_t number = cell_numbers_[b][c];
-      last_ = std::max(last_, number);
       element(
-          number, kind, block.region + 1,
+          cell_numbers_[b][c], kind, block.region + 1,
           {block.nodes.data() + c * block.nodes.cols(), static_cast<size_t>(block.nodes.cols())});
     }
   }
@@ -106,20 +106,21 @@ class UnvWriter {
   }
 
   void groups() {
-    for (size_t r = 0; r < mesh_.regions.size(); ++r) {
+    const std::vector<std::string> names = export_region_names(mesh_);
+    for (size_t r = 0; r < names.size(); ++r) {
       std::vector<int32_t> members;
       for (size_t b = 0; b < mesh_.cells.size(); ++b)
         if (mesh_.cells[b].region == static_cast<int32_t>(r))
           members.insert(members.end(), cell_numbers_[b].begin(), cell_numbers_[b].end());
-      group(mesh_.regions[r], kElement, members);
+      for (const ExportFace& face : faces_)
+        if (face.region == static_cast<int32_t>(r)) members.push_back(face.number);
+      group(names[r], kElement, members);
     }
     size_t index = 0;
     for (const auto& [name, surface] : mesh_.surfaces) {
       std::vector<int32_t> members;
-      for (size_t f = 0; f < faces_.size(); ++f) {
-        const auto& in = faces_[f].surfaces;
-        if (std::binary_search(in.begin(), in.end(), index)) members.push_back(face_numbers_[f]);
-      }
+      for (const ExportFace& face : faces_)
+        if (std::ranges::binary_search(face.surfaces, index)) members.push_back(face.number);
       ++index;
       group(name, kElement, members);
     }
@@ -134,10 +135,9 @@ class UnvWriter {
   std::vector<int32_t> node_numbers_;
   std::vector<std::vector<int32_t>> cell_numbers_;
   std::vector<ExportFace> faces_;
-  std::vector<int32_t> face_numbers_;
+  int32_t last_;  // number of an element
   fmt::memory_buffer out_;
   int groups_ = 0;
-  int32_t last_ = 0;
 };
 
 }  // namespace

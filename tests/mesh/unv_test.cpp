@@ -10,6 +10,7 @@
 #include "mesh/exports/unv_writer.hpp"
 #include "support.hpp"
 #include "tests/assembly/block_mesh.hpp"
+#include "tests/mesh/deck/sheet_mesh.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter::mesh {
@@ -86,6 +87,30 @@ INSTANTIATE_TEST_SUITE_P(Kinds, UnvOfEachKind,
                          ::testing::Values(CellType::kTet4, CellType::kTet10, CellType::kHex8,
                                            CellType::kHex20, CellType::kWedge6,
                                            CellType::kWedge15));
+
+// Gmsh mixes up groups that share elements: they are checked as text.
+TEST(Unv, ShellsAreThinShellsOfTheirRegionAndSurfaces) {
+  const Mesh mesh = testing::cube_and_sheet();
+  const Folder folder;
+  const std::string text = unv_text(mesh);
+  std::ofstream(folder / "part.unv") << text;
+  const GmshSession session("unv");
+  gmsh::merge((folder / "part.unv").string());
+  // Six faces of the cube, two shells and one triangle, each once.
+  EXPECT_EQ(elements_of(traits(FaceType::kQuad4).gmsh_type).size(), 4u * 8);
+  EXPECT_EQ(elements_of(traits(FaceType::kTri3).gmsh_type), (std::vector<size_t>{73, 64, 70}));
+  for (const char* group :
+       {"         2\nsheet\n         8        71         0         0         8        70",
+        "         1\nrib\n         8         5         0         0\n", "         9\nskin\n",
+        "         3\nwet\n         8        71"})
+    EXPECT_NE(text.find(group), std::string::npos) << group << text;
+}
+
+TEST(Unv, ARegionOfShellsNamedAsASurfaceGetsAnotherName) {
+  Mesh mesh = testing::cube_and_sheet();
+  mesh.regions[2] = "wet";
+  EXPECT_NE(unv_text(mesh).find("\nwet_shells\n"), std::string::npos);
+}
 
 TEST(Unv, NodeSetsAndFacesInTwoSurfacesAreWritten) {
   Mesh mesh = testing::one_cell();

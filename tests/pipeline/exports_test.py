@@ -133,5 +133,97 @@ class Exports(unittest.TestCase):
             self.assertAlmostEqual(found / volume, 1, delta=1e-12)
 
 
+# A cube, and beside it a sheet of two quadrilaterals and a triangle.
+SHELLS = """BEGIN BULK
+GRID,1,,0.,0.,0.
+GRID,2,,1.,0.,0.
+GRID,3,,1.,1.,0.
+GRID,4,,0.,1.,0.
+GRID,5,,0.,0.,1.
+GRID,6,,1.,0.,1.
+GRID,7,,1.,1.,1.
+GRID,8,,0.,1.,1.
+GRID,11,,0.,0.,2.
+GRID,12,,1.,0.,2.
+GRID,13,,2.,0.,2.
+GRID,14,,0.,1.,2.
+GRID,15,,1.,1.,2.
+GRID,16,,2.,1.,2.
+GRID,17,,3.,.5,2.
+CHEXA,1,1,1,2,3,4,5,6,+
++,7,8
+CQUAD4,21,2,11,12,15,14
+CQUAD4,22,2,12,13,16,15,,.0005,+
++,,,.001,.001,.002,.002
+CTRIA3,23,3,13,17,16
+PSOLID,1,1
+PSHELL,2,1,.002,1,,1
+PSHELL,3,1,.003,1,,1
+MAT1,1,2.1+11,,.3,7850.
+ENDDATA
+"""
+
+
+class ShellExports(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        stages.require_stages()
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="clatter-shell-exports-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        (cls.folder / "sheet.bdf").write_text(SHELLS)
+        cls.mesh("sheet.bdf", "--units", "m-kg-s", "-o", "sheet.mesh.h5")
+        done = cls.mesh("export", "sheet.mesh.h5", *[f"out.{kind}" for kind in ("vtu", "msh", "med", "unv", "inp", "nas")])
+        cls.warnings = done.stderr
+
+    @classmethod
+    def mesh(cls, *arguments):
+        done = stages.run_stage("mesh", *arguments, folder=cls.folder)
+        if done.returncode != 0:
+            raise AssertionError(done.stderr)
+        return done
+
+    def test_a_thickness_that_a_format_does_not_have_is_named(self):
+        lost = "2 shells have a thickness or an offset of their own"
+        self.assertEqual([kind for kind in ("vtu", "msh", "med", "unv", "inp", "nas") if f"out.{kind}: {lost}" in self.warnings],
+                         ["msh", "med", "unv", "inp"])
+
+    def test_decks_give_the_same_shells_again(self):
+        def content(name):
+            out = {}
+
+            def add(path, one):
+                if path.split("/")[0] in ("nodes", "node_ids", "regions", "cells", "shells", "surfaces", "node_sets"):
+                    out.update({f"{path} {key}": value for key, value in one.attrs.items()})
+                    if isinstance(one, h5py.Dataset):
+                        out[path] = one[()]
+
+            with h5py.File(self.folder / name) as file:
+                file.visititems(add)
+            return out
+
+        wanted = content("sheet.mesh.h5")
+        self.assertIn("shells/0/nodes", wanted)
+        for kind in ("nas", "inp"):
+            self.mesh(f"out.{kind}", "--units", "m-kg-s", "-o", f"{kind}.mesh.h5")
+            found = content(f"{kind}.mesh.h5")
+            keys = {path for path in wanted if kind == "nas" or path.split("/")[-1] not in ("thickness", "offset")}
+            self.assertEqual(set(found), keys)
+            for path in keys:
+                with self.subTest(kind=kind, path=path):
+                    np.testing.assert_array_equal(found[path], wanted[path])
+
+    def test_other_readers_count_the_shells(self):
+        try:
+            import meshio
+        except ImportError:
+            self.skipTest("meshio (package python3-meshio) is not installed")
+        # In .msh a face of two groups is two elements: shells and the cube's faces are the skin, too.
+        for kind, quads, triangles in (("vtu", 2, 1), ("msh", 10, 2), ("med", 8, 1), ("inp", 2, 1)):
+            with self.subTest(kind):
+                cells = meshio.read(self.folder / f"out.{kind}").cells
+                self.assertEqual([sum(len(block.data) for block in cells if block.type == one)
+                                  for one in ("quad", "triangle", "hexahedron")], [quads, triangles, 1])
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)

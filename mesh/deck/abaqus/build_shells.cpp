@@ -55,6 +55,11 @@ class ShellSections {
       gifts_[at] = gift_of(card);
       regions[at] = add_region(use, card, gifts_[at]);
     });
+    for (const IdSet* set : model_.shells.sets) {
+      gifts_.emplace_back();
+      regions.push_back(
+          new_region(model_.numbering.main_use(), set->name, set->chunks.front().origin, ""));
+    }
   }
 
   ShellCell cell_of(size_t thin) const {
@@ -149,14 +154,10 @@ class ShellSections {
     const std::string& elset = keyword.required("ELSET", model_.source);
     const IdSets& sets = model_.numbering.uses()[use].scope->element_sets;
     const auto set = sets.find(folded(elset));
-    const std::string name =
-        model_.numbering.public_name(use, set == sets.end() ? elset : set->second.name);
-    std::vector<std::string>& names = model_.deck.mesh.regions;
-    if (std::ranges::find(names, name) != names.end())
-      model_.source.fail(card.origin(), fmt::format("found a second region {}", name));
-    Region region;
-    region.where = model_.source.where(card.origin());
-    region.material = material_of(card);
+    const int32_t index = new_region(use, set == sets.end() ? elset : set->second.name,
+                                     card.origin(), material_of(card));
+    const Region& region = model_.deck.regions.back();
+    const std::string& name = model_.deck.mesh.regions.back();
     recipe::Shell shell{recipe::Source(region.where), {name}, {}};
     shell.section.thickness = gift.thickness;
     if (const std::string* density = keyword.find("DENSITY")) {
@@ -166,9 +167,21 @@ class ShellSections {
                                                       "a mass per area",
                                                       *density));
     }
+    model_.deck.shells.push_back(std::move(shell));
+    return index;
+  }
+
+  int32_t new_region(size_t use, const std::string& set, Origin origin,
+                     const std::string& material) {
+    const std::string name = model_.numbering.public_name(use, set);
+    std::vector<std::string>& names = model_.deck.mesh.regions;
+    if (std::ranges::find(names, name) != names.end())
+      model_.source.fail(origin, fmt::format("found a second region {}", name));
+    Region region;
+    region.where = model_.source.where(origin);
+    region.material = material;
     names.push_back(name);
     model_.deck.regions.push_back(std::move(region));
-    model_.deck.shells.push_back(std::move(shell));
     return static_cast<int32_t>(names.size()) - 1;
   }
 
@@ -192,6 +205,66 @@ class ShellSections {
   std::vector<double> nodal_;  // by row; NaN: none
 };
 
+class ShellFinder {
+ public:
+  explicit ShellFinder(Model& model)
+      : model_(model), on_solid_(static_cast<size_t>(model.numbering.nodes()), false) {
+    for (const FlatTable& table : model.numbering.tables())
+      for (const int32_t row : table.nodes) on_solid_[static_cast<size_t>(row)] = true;
+    model.shells.section_of.assign(model.numbering.thin().size(), -1);
+  }
+
+  void run() {
+    int32_t section = 0;
+    for_each_card(model_, {"SHELLSECTION"}, [&](size_t use, const Card& card) {
+      const int32_t number = section++;
+      const std::string& set = card.keyword().required("ELSET", model_.source);
+      for (const int32_t element : model_.sets.elements(use, set, card.origin())) {
+        int32_t* at = section_of(element);
+        if (at == nullptr) continue;
+        if (*at >= 0)
+          model_.source.fail(card.origin(), fmt::format("element {} has a section already",
+                                                        model_.numbering.thin(element)->id));
+        *at = number;
+      }
+    });
+    if (section == 0 && model_.shells.are_marked) take_sets();
+  }
+
+ private:
+  // Of an element that may be a shell; null for others, as skins of solids.
+  int32_t* section_of(int32_t element) const {
+    const ThinElement* one = model_.numbering.thin(element);
+    if (one == nullptr || !is_shell_type(one->type)) return nullptr;
+    const auto corners = one->nodes.begin() + traits(*one->face).corners;
+    if (std::all_of(one->nodes.begin(), corners, [&](int32_t row) { return on_solid_[row]; }))
+      return nullptr;
+    return &model_.shells.section_of[static_cast<size_t>(element - model_.numbering.first_thin())];
+  }
+
+  // In the order of the deck.
+  void take_sets() {
+    const size_t use = model_.numbering.main_use();
+    std::map<Origin, const IdSet*> sets;
+    for (const auto& [key, set] : model_.numbering.uses()[use].scope->element_sets)
+      sets.emplace(set.chunks.front().origin, &set);
+    std::vector<const IdSet*>& taken = model_.shells.sets;
+    for (const auto& [origin, set] : sets) {
+      bool any = false;
+      for (const int32_t element : model_.sets.elements(use, set->name, origin)) {
+        int32_t* at = section_of(element);
+        if (at == nullptr || *at >= 0) continue;
+        *at = static_cast<int32_t>(taken.size());
+        any = true;
+      }
+      if (any) taken.push_back(set);
+    }
+  }
+
+  Model& model_;
+  std::vector<bool> on_solid_;
+};
+
 void note_integration(Model& model) {
   std::set<std::string> reduced;
   Origin first = 0;
@@ -209,30 +282,7 @@ void note_integration(Model& model) {
 
 }  // namespace
 
-void find_shells(Model& model) {
-  const std::vector<ThinElement>& thin = model.numbering.thin();
-  std::vector<bool> on_solid(static_cast<size_t>(model.numbering.nodes()), false);
-  for (const FlatTable& table : model.numbering.tables())
-    for (const int32_t row : table.nodes) on_solid[static_cast<size_t>(row)] = true;
-  std::vector<int32_t>& section_of = model.shells.section_of;
-  section_of.assign(thin.size(), -1);
-  int32_t section = 0;
-  for_each_card(model, {"SHELLSECTION"}, [&](size_t use, const Card& card) {
-    const int32_t number = section++;
-    const std::string& set = card.keyword().required("ELSET", model.source);
-    for (const int32_t element : model.sets.elements(use, set, card.origin())) {
-      const ThinElement* one = model.numbering.thin(element);
-      if (one == nullptr || !is_shell_type(one->type)) continue;
-      const auto corners = one->nodes.begin() + traits(*one->face).corners;
-      if (std::all_of(one->nodes.begin(), corners, [&](int32_t row) { return on_solid[row]; }))
-        continue;  // a skin
-      int32_t& at = section_of[static_cast<size_t>(element - model.numbering.first_thin())];
-      if (at >= 0)
-        model.source.fail(card.origin(), fmt::format("element {} has a section already", one->id));
-      at = number;
-    }
-  });
-}
+void find_shells(Model& model) { ShellFinder(model).run(); }
 
 void add_shell_nodes(Model& model) {
   Mesh& mesh = model.deck.mesh;

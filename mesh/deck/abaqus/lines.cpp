@@ -63,6 +63,7 @@ bool Lines::next_line() {
   while (const auto line = source_.next()) {
     data_ = trimmed(*line);
     marked_end_ = data_ == kEndMark;
+    marked_shells_ = marked_shells_ || data_ == kShellMark;
     if (data_.empty() || data_.starts_with("**")) continue;
     if (!parameters_.empty() && data_.find('<') != std::string_view::npos) {
       replaced_ = parameters_.replaced(data_, source_, source_.origin());

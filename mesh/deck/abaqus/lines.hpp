@@ -11,6 +11,8 @@ namespace clatter::mesh::deck::abaqus {
 
 /// The last line of decks that clatter writes.
 inline constexpr std::string_view kEndMark = "** end of the mesh by clatter";
+/// A line of those with shells: as long as there is no section, sets of *ELEMENT are their regions.
+inline constexpr std::string_view kShellMark = "** S3 and S4 of this mesh by clatter are shells";
 
 /// Splits a Source into keywords and data lines; follows *INCLUDE and the parameter INPUT of any
 /// keyword; skips comments (**) and empty lines.
@@ -29,6 +31,8 @@ class Lines {
   bool bare_keyword() const { return bare_keyword_; }
   /// True when the last line of the deck was the final comment of our own writer.
   bool marked_end() const { return marked_end_; }
+  /// True when a line was the comment of our own writer on shells.
+  bool marked_shells() const { return marked_shells_; }
   Origin origin() const { return source_.origin(); }
   const Source& source() const { return source_; }
   /// Values of <name> in the lines that follow.
@@ -44,7 +48,7 @@ class Lines {
   Keyword keyword_;
   std::string_view data_;
   bool held_ = false;  // data_ is the next line
-  bool open_keyword_ = false, bare_keyword_ = false, marked_end_ = false;
+  bool open_keyword_ = false, bare_keyword_ = false, marked_end_ = false, marked_shells_ = false;
 };
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -27,6 +27,8 @@ struct ShellParts {
   std::vector<int32_t> regions;          // of each section, index into Mesh::regions; -1: refused
   std::map<int32_t, NodeIndex> centres;  // by thin element: the node that one of eight nodes gets
   std::vector<ShellHinge> hinges;        // those on nodes of solids
+  bool are_marked = false;               // kShellMark
+  std::vector<const IdSet*> sets;        // instead of sections, where they are marked
 
   int32_t section(int32_t thin) const {
     return thin < 0 || thin >= std::ssize(section_of) ? -1 : section_of[static_cast<size_t>(thin)];
@@ -94,7 +96,7 @@ void build_materials(Model& model);
 void build_systems(Model& model);
 /// Cells, shells, nodes, regions. Nodes without cells get no node index yet.
 void build_mesh(Model& model);
-/// Elements with a *SHELL SECTION that have a corner on no solid -> Model::shells.
+/// Elements with a *SHELL SECTION, or marked ones, that have a corner on no solid -> Model::shells.
 void find_shells(Model& model);
 /// The nodes in the middle of shells of eight nodes, and which nodes have rotations.
 void add_shell_nodes(Model& model);

@@ -35,6 +35,7 @@ class Parser {
     refusals_.attempt([&] { check_end(); });
     if (incomplete_) refusals_.raise();
     for (const auto& [type, note] : variants_) deck_.notes.push_back(note);
+    deck_.marked_shells = lines_.marked_shells();
     return std::move(deck_);
   }
 

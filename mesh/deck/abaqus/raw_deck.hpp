@@ -103,6 +103,7 @@ struct RawDeck {
   std::vector<InstanceLine> instances;
   std::vector<std::string> notes;  // Deck::notes
   std::vector<Damping> damping;    // Deck::damping
+  bool marked_shells = false;      // kShellMark
 };
 
 /// The chunk that a new keyword adds to; creates the set if needed.

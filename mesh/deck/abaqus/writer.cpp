@@ -15,6 +15,7 @@
 #include "mesh/deck/abaqus/lines.hpp"
 #include "mesh/deck/abaqus/number.hpp"
 #include "mesh/deck/field_text.hpp"
+#include "mesh/deck/shell_numbers.hpp"
 #include "mesh/deck/text_buffer.hpp"
 
 namespace clatter::mesh::deck {
@@ -48,6 +49,8 @@ class AbaqusWriter {
     }
     check_names(mesh_.regions);
     for (size_t b = 0; b < mesh_.cells.size(); ++b) write_cells(b);
+    if (!mesh_.shells.empty()) text_.put("{}\n", abaqus::kShellMark);
+    for (size_t b = 0; b < mesh_.shells.size(); ++b) write_shells(b);
     std::vector<std::string> names;
     for (const auto& [name, nodes] : mesh_.node_sets) names.push_back(name);
     check_names(names);
@@ -89,7 +92,11 @@ class AbaqusWriter {
       cell_ids_.push_back(block.ids);
       all.insert(all.end(), block.ids.begin(), block.ids.end());
     }
-    if (known && all_different(all)) return;
+    if (!known || !all_different(all)) count_cells();
+    shell_ids_ = shell_numbers(mesh_, cell_ids_);
+  }
+
+  void count_cells() {
     int32_t next = 0;
     for (size_t b = 0; b < mesh_.cells.size(); ++b) {
       cell_ids_[b].resize(mesh_.cells[b].nodes.rows());
@@ -141,6 +148,19 @@ class AbaqusWriter {
     }
   }
 
+  void write_shells(size_t b) {
+    const ShellBlock& block = mesh_.shells[b];
+    if (block.nodes.rows() == 0) return;
+    text_.put("*ELEMENT, TYPE={}, ELSET={}\n", traits(block.type).corners == 3 ? "S3" : "S4",
+              quoted(mesh_.regions[block.region]));
+    const auto entries = static_cast<size_t>(block.nodes.cols()) + 1;
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
+      put_entry(shell_ids_[b][static_cast<size_t>(c)], 0, entries);
+      for (size_t i = 1; i < entries; ++i)
+        put_entry(node_ids_[block.nodes(c, static_cast<Eigen::Index>(i) - 1)], i, entries);
+    }
+  }
+
   void write_node_set(const std::string& name, const std::vector<int32_t>& nodes) {
     text_.put("*NSET, NSET={}\n", quoted(name));
     for (size_t i = 0; i < nodes.size(); ++i) {
@@ -172,8 +192,23 @@ class AbaqusWriter {
         }
       }
     }
+    for (size_t b = 0; b < mesh_.shells.size(); ++b) index_sides(b);
     std::sort(faces_.begin(), faces_.end(),
               [](const Face& a, const Face& b) { return a.corners < b.corners; });
+  }
+
+  // Both sides of the shells of a block.
+  void index_sides(size_t b) {
+    const ShellBlock& block = mesh_.shells[b];
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
+      std::array<int32_t, 4> nodes{};
+      const auto corners = static_cast<size_t>(block.nodes.cols());
+      for (size_t i = 0; i < corners; ++i) nodes[i] = block.nodes(c, static_cast<Eigen::Index>(i));
+      const int32_t cell = shell_ids_[b][static_cast<size_t>(c)];
+      faces_.push_back({turned(nodes, corners), cell, kSpos});
+      std::reverse(nodes.begin(), nodes.begin() + corners);
+      faces_.push_back({turned(nodes, corners), cell, kSneg});
+    }
   }
 
   void write_surface(const std::string& name, const Surface& surface) {
@@ -183,15 +218,19 @@ class AbaqusWriter {
       for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
         const std::span<const int32_t> nodes(block.nodes.data() + f * block.nodes.cols(), corners);
         const Face& face = face_at(nodes, name);
-        text_.put("{}, S{}\n", face.cell, face.number);
+        if (face.number > 0)
+          text_.put("{}, S{}\n", face.cell, face.number);
+        else
+          text_.put("{}, {}\n", face.cell, face.number == kSpos ? "SPOS" : "SNEG");
       }
     }
   }
 
+  static constexpr int kSpos = 0, kSneg = -1;
   struct Face {
     FaceCorners corners;
     int32_t cell;
-    int number;
+    int number;  // 1, 2, ...; of shells kSpos or kSneg
   };
 
   // The face with those corners in that cyclic order: outward from its cell.
@@ -212,7 +251,7 @@ class AbaqusWriter {
   const Mesh& mesh_;
   TextBuffer text_;
   std::vector<int32_t> node_ids_;
-  std::vector<std::vector<int32_t>> cell_ids_;
+  std::vector<std::vector<int32_t>> cell_ids_, shell_ids_;
   std::vector<Face> faces_;
 };
 

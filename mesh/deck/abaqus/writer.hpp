@@ -10,6 +10,8 @@ namespace clatter::mesh::deck {
 /// Writes *NODE, *ELEMENT by region (ELSET), *NSET and *SURFACE (TYPE=ELEMENT), lengths in metres.
 /// read_abaqus() reads the same mesh again: numbers, regions, sets and surfaces with their names
 /// and order, and coordinates as abaqus_number() (number.hpp) writes them. Fields are not written.
+/// Shells are S3 and S4, their faces SPOS or SNEG; a comment (kShellMark) lets the reader take them
+/// without a *SHELL SECTION. Their thickness and offset are not written.
 ///
 /// Numbers of nodes and cells are those of the imported file; if missing or not unique they count
 /// from 1. The file is written under a temporary name and renamed when complete. InputError for a

@@ -13,6 +13,11 @@ namespace {
 // Poisson's ratios of stretching and bending that differ by no more are the same.
 constexpr double kSameRatio = 1e-6;
 
+// Of properties without materials, as our writer has them.
+bool is_mere_mesh(const Model& model) {
+  return model.raw.materials.empty() && model.raw.other_materials.empty();
+}
+
 class ShellProperties {
  public:
   explicit ShellProperties(Model& model) : model_(model) {}
@@ -91,7 +96,13 @@ class ShellProperties {
     return section;
   }
 
+  // In a mesh without materials all of a property are the same.
   Material isotropic(int32_t property, const RawShell& raw, int32_t id) const {
+    if (is_mere_mesh(model_)) {
+      Material any;
+      any.constants = {1.0, 0.0};
+      return any;
+    }
     const auto found = model_.raw.materials.find(id);
     const auto other = model_.raw.other_materials.find(id);
     std::string card;
@@ -135,7 +146,7 @@ class ShellReader {
     for (size_t i = 0; i < static_cast<size_t>(traits(raw.type).corners); ++i) {
       const double own = raw.thickness[i];
       const double t = std::isnan(own) ? usual : raw.is_relative ? own * usual : own;
-      if (!(t > 0.0))
+      if (!(t > 0.0) && !(t == 0.0 && is_mere_mesh(model_)))
         model_.source.fail(raw.origin,
                            fmt::format("{} {}: found a thickness of {:g}, expected more than 0: T "
                                        "of its PSHELL, or T1 to T{}",

@@ -25,8 +25,8 @@ void expand_tabs(std::string_view line, std::string& out) {
   }
 }
 
-// Continuation names are compared without their + or *; some programs number them "+000001", so that
-// the next line begins with two.
+// Continuation names are compared without their + or *; some programs number them "+000001", so
+// that the next line begins with two.
 std::string_view continuation_name(std::string_view text) {
   text = trimmed(text);
   while (!text.empty() && (text[0] == '+' || text[0] == '*')) text = trimmed(text.substr(1));

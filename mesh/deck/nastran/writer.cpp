@@ -10,6 +10,7 @@
 #include "core/base/whole_file.hpp"
 #include "mesh/deck/field_text.hpp"
 #include "mesh/deck/nastran/number.hpp"
+#include "mesh/deck/shell_numbers.hpp"
 #include "mesh/deck/text_buffer.hpp"
 
 namespace clatter::mesh::deck {
@@ -24,24 +25,26 @@ class Numbers {
  public:
   explicit Numbers(const Mesh& mesh) : mesh_(mesh) {
     for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) note(node(static_cast<int32_t>(n)));
+    int32_t last = 0;
+    for (const CellBlock& block : mesh.cells)
+      for (const int32_t id : block.ids) last = std::max(last, id);
     for (const CellBlock& block : mesh.cells) {
-      for (int32_t id : block.ids) {
-        note(id);
-        last_cell_ = std::max(last_cell_, id);
-      }
+      std::vector<int32_t>& numbers = cells_.emplace_back(block.ids);
+      while (std::ssize(numbers) < block.nodes.rows()) numbers.push_back(++last);
     }
+    shells_ = shell_numbers(mesh, cells_);
+    for (const auto* blocks : {&cells_, &shells_})
+      for (const std::vector<int32_t>& numbers : *blocks)
+        for (const int32_t number : numbers) note(number);
   }
   int32_t node(int32_t index) const {
     return mesh_.node_ids.empty() ? index + 1 : mesh_.node_ids[index];
   }
-  int32_t cell(const CellBlock& block, Eigen::Index row) {
-    return block.ids.empty() ? ++last_cell_ : block.ids[row];
-  }
+  /// Of the solids and shells, block by block.
+  const std::vector<std::vector<int32_t>>& cells() const { return cells_; }
+  const std::vector<std::vector<int32_t>>& shells() const { return shells_; }
   /// Width of fields for all numbers.
-  int width(int64_t more) const {
-    return std::max<int64_t>(largest_, last_cell_ + more) > kMostInSmallField ? kLargeField
-                                                                              : kSmallField;
-  }
+  int width() const { return largest_ > kMostInSmallField ? kLargeField : kSmallField; }
 
  private:
   void note(int32_t id) {
@@ -52,24 +55,24 @@ class Numbers {
     largest_ = std::max(largest_, id);
   }
   const Mesh& mesh_;
-  int32_t largest_ = 0, last_cell_ = 0;
+  std::vector<std::vector<int32_t>> cells_, shells_;
+  int32_t largest_ = 0;
 };
 
 class NastranWriter {
  public:
   NastranWriter(const Mesh& mesh, std::ostream& out)
-      : mesh_(mesh), text_(out), numbers_(mesh), width_(numbers_.width(mesh.cell_count())) {}
+      : mesh_(mesh), text_(out), numbers_(mesh), width_(numbers_.width()) {}
 
   void run() {
     text_.put("$ {} (lengths in metres)\nBEGIN BULK\n", mesh_.name);
-    for (size_t r = 0; r < mesh_.regions.size(); ++r) {
-      text_.put("$ clatter region {} {}\nPSOLID  {:<8}1\n", r + 1, mesh_.regions[r], r + 1);
-    }
+    properties();
     nodes();
     if (const auto hanging = mesh_.node_sets.find(kHangingMidSideNodes);
         hanging != mesh_.node_sets.end() && !hanging->second.empty())
       text_.put("$ clatter hanging {}\n", numbers_.node(hanging->second.front()));
-    for (const CellBlock& block : mesh_.cells) cells(block);
+    for (size_t b = 0; b < mesh_.cells.size(); ++b) cells(b);
+    for (size_t b = 0; b < mesh_.shells.size(); ++b) shells(b);
     size_t number = 0;
     for (const auto& [name, nodes] : mesh_.node_sets) {
       if (!nodes.empty() && name != kHangingMidSideNodes) node_set(++number, name, nodes);
@@ -80,6 +83,19 @@ class NastranWriter {
   }
 
  private:
+  // A mesh has no sections: T of a PSHELL is for the user, where its cells have no T1 to T4.
+  void properties() {
+    std::vector<bool> is_shell(mesh_.regions.size(), false);
+    for (const ShellBlock& block : mesh_.shells) is_shell[block.region] = true;
+    for (size_t r = 0; r < mesh_.regions.size(); ++r) {
+      text_.put("$ clatter region {} {}\n", r + 1, mesh_.regions[r]);
+      if (is_shell[r])
+        text_.put("PSHELL  {:<8}{:<16}{:<16}{}\n", r + 1, 1, 1, 1);
+      else
+        text_.put("PSOLID  {:<8}1\n", r + 1);
+    }
+  }
+
   void nodes() {
     for (Eigen::Index n = 0; n < mesh_.nodes.rows(); ++n) {
       if (hangs(static_cast<int32_t>(n))) continue;
@@ -97,16 +113,47 @@ class NastranWriter {
     }
   }
 
-  void cells(const CellBlock& block) {
+  void cells(size_t b) {
+    const CellBlock& block = mesh_.cells[b];
     const CellTraits& cell = traits(block.type);
     std::vector<int32_t> fields;
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-      fields = {numbers_.cell(block, c), block.region + 1};
+      fields = {numbers_.cells()[b][static_cast<size_t>(c)], block.region + 1};
       for (int i : cell.to_nastran)
         fields.push_back(hangs(block.nodes(c, i)) ? kNoField : numbers_.node(block.nodes(c, i)));
       while (fields.back() == kNoField) fields.pop_back();
-      card(cell.nastran_name, fields);
+      card(cell.nastran_name, fields, width_);
     }
+  }
+
+  void shells(size_t b) {
+    const ShellBlock& block = mesh_.shells[b];
+    const char* name = traits(block.type).corners == 3 ? "CTRIA3" : "CQUAD4";
+    std::vector<int32_t> fields;
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
+      fields = {numbers_.shells()[b][static_cast<size_t>(c)], block.region + 1};
+      for (const int32_t node : block.nodes.row(c)) fields.push_back(numbers_.node(node));
+      if (block.thickness.size() > 0 || block.offset.size() > 0)
+        own_section(name, fields, block, c);
+      else
+        card(name, fields, width_);
+    }
+  }
+
+  // The corners are followed by THETA and ZOFFS; T1 to T4 are fields 11 to 14 after the name.
+  void own_section(const char* name, const std::vector<int32_t>& integers, const ShellBlock& block,
+                   Eigen::Index c) {
+    constexpr size_t kFirstThickness = 10;
+    std::vector<std::string> fields;
+    for (const int32_t field : integers) fields.push_back(std::to_string(field));
+    fields.emplace_back();
+    fields.push_back(block.offset.size() > 0 ? nastran_number(block.offset[c], kLargeField) : "");
+    if (block.thickness.size() > 0) {
+      fields.resize(kFirstThickness);
+      for (const double t : block.thickness.row(c))
+        fields.push_back(nastran_number(t, kLargeField));
+    }
+    card(name, fields, kLargeField);
   }
 
   /// Hanging mid-side nodes are omitted from their cells: the reader adds them again.
@@ -120,7 +167,7 @@ class NastranWriter {
     text_.put("$ clatter set {} {}\n", number, name);
     std::vector<int32_t> fields = {static_cast<int32_t>(number)};
     for (int32_t node : nodes) fields.push_back(numbers_.node(node));
-    card("SET1", fields);
+    card("SET1", fields, width_);
   }
 
   void faces(const std::string& name, const Surface& surface) {
@@ -136,20 +183,26 @@ class NastranWriter {
     }
   }
 
-  // Integers in small fields, or in large ones if needed.
-  void card(std::string_view name, const std::vector<int32_t>& fields) {
-    const bool large = width_ == kLargeField;
+  // Fields of eight or sixteen columns.
+  template <class Field>
+  void card(std::string_view name, const std::vector<Field>& fields, int width) {
+    const bool large = width == kLargeField;
     text_.put("{:<8}", large ? fmt::format("{}*", name) : std::string(name));
     const size_t per_line = large ? 4 : 8;
     for (size_t i = 0; i < fields.size(); ++i) {
       if (i > 0 && i % per_line == 0) text_.put("{0}\n{0:<8}", large ? '*' : '+');
-      if (fields[i] == kNoField)
-        text_.put("{:<{}}", "", width_);
-      else
-        text_.put("{:<{}}", fields[i], width_);
+      field(fields[i], width);
     }
     text_.put("\n");
   }
+
+  void field(int32_t value, int width) {
+    if (value == kNoField)
+      field("", width);
+    else
+      text_.put("{:<{}}", value, width);
+  }
+  void field(const std::string& value, int width) { text_.put("{:<{}}", value, width); }
 
   const Mesh& mesh_;
   TextBuffer text_;

@@ -5,7 +5,10 @@
 //   GRID* numbers of node_ids (else index + 1), coordinates in 16 columns. Longer ones (12 to 15
 //   digits fit) are also in full in a comment before the card
 //   CTETRA CPYRAM CPENTA CHEXA  numbers of CellBlock::ids (else counted on), PID = region + 1
-//   PSOLID   one a region, material 1; no MAT cards: a mesh has no materials
+//   CTRIA3 CQUAD4  shells, the same; T1 to T4 and ZOFFS in large fields, of 11 digits or more,
+//            where the mesh has them
+//   PSOLID PSHELL  one a region, material 1; no MAT cards: a mesh has no materials. T of PSHELL is
+//            blank: a mesh has no sections
 //   SET1     one a node set
 //
 // Comments hold what Nastran has no card for:

@@ -12,6 +12,7 @@
 #include "mesh/deck/abaqus/writer.hpp"
 #include "mesh/deck/field_text.hpp"
 #include "tests/mesh/deck/abaqus/support.hpp"
+#include "tests/mesh/deck/sheet_mesh.hpp"
 #include "tests/mesh/support.hpp"
 #include "tests/refusal.hpp"
 
@@ -84,6 +85,38 @@ TEST(AbaqusWriter, AMeshWithoutNumbersIsNumberedFromOne) {
   mesh.cells[0].ids = {1};
   expect_same(mesh, read);
   EXPECT_EQ(read.surface("skin").face_count(), 4);
+}
+
+TEST(AbaqusWriter, ShellsComeBackWithBothSidesOfTheirSurfaces) {
+  const mesh::testing::Folder folder;
+  Mesh mesh = mesh::testing::cube_and_sheet();
+  write_abaqus(mesh, folder / "out.inp");
+  std::ifstream file(folder / "out.inp");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  EXPECT_NE(text.find("*ELEMENT, TYPE=S3, ELSET=sheet\n71, 73, 64, 70\n"), std::string::npos);
+  EXPECT_NE(text.find("*SURFACE, NAME=wet, TYPE=ELEMENT\n71, SPOS\n9, S2\n70, SNEG\n"),
+            std::string::npos);
+  const Deck deck = read_abaqus(folder / "out.inp", {});
+  EXPECT_EQ(deck.regions.at(2).material, "");
+  EXPECT_TRUE(deck.notes.empty());
+  expect_same(mesh, deck.mesh);
+  mesh.shells[2].thickness.resize(0, 0);
+  mesh.shells[2].offset.resize(0);
+  mesh::testing::expect_same_shells(mesh, deck.mesh);
+}
+
+TEST(AbaqusWriter, SectionsThatTheUserAddsAreThoseOfTheShells) {
+  const mesh::testing::Folder folder;
+  write_abaqus(mesh::testing::cube_and_sheet(), folder / "out.inp");
+  std::ofstream(folder / "all.inp")
+      << "*INCLUDE, INPUT=out.inp\n*MATERIAL, NAME=steel\n*ELASTIC\n2e11, .3\n"
+         "*SOLID SECTION, ELSET=block, MATERIAL=steel\n"
+         "*SHELL SECTION, ELSET=rib, MATERIAL=steel\n.004\n"
+         "*SHELL SECTION, ELSET=sheet, MATERIAL=steel\n.002\n";
+  const Deck deck = read_abaqus(folder / "all.inp", {});
+  EXPECT_EQ(deck.mesh.regions, (std::vector<std::string>{"block", "rib", "sheet"}));
+  ASSERT_EQ(deck.shells.size(), 2u);
+  EXPECT_EQ(deck.shells[1].section.thickness, 0.002);
 }
 
 TEST(AbaqusWriter, NumbersFitCalculixAndLoseNothingAboveAHundredth) {

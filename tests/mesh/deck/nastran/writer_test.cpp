@@ -15,6 +15,7 @@
 #include "mesh/exports/mesh_export.hpp"
 #include "tests/assembly/block_mesh.hpp"
 #include "tests/mesh/deck/nastran/support.hpp"
+#include "tests/mesh/deck/sheet_mesh.hpp"
 #include "tests/refusal.hpp"
 #include "tests/scratch.hpp"
 
@@ -136,6 +137,44 @@ TEST(NastranWriter, KeepsNumbersHoweverLarge) {
     expect_same(mesh, back);
     EXPECT_EQ(mesh.node_ids, back.node_ids);
   }
+}
+
+TEST(NastranWriter, ShellsComeBackWithTheirThicknessOffsetAndSurfaces) {
+  const Mesh mesh = mesh::testing::cube_and_sheet();
+  std::ostringstream out;
+  mesh::deck::write_nastran(mesh, out);
+  EXPECT_THAT(out.str(), HasSubstr("\n$ clatter region 2 sheet\n"
+                                   "PSHELL  2       1               1               1\n"));
+  EXPECT_THAT(out.str(), HasSubstr("\nCTRIA3  71      2       73      64      70      \n"));
+  const mesh::deck::Deck deck = read_deck(out.str());
+  EXPECT_EQ(deck.mesh.node_ids.back(), 58);
+  expect_same(mesh, deck.mesh);
+  mesh::testing::expect_same_shells(mesh, deck.mesh);
+  EXPECT_TRUE(deck.materials.empty());
+  EXPECT_EQ(deck.regions.at(2).material, "");
+}
+
+TEST(NastranWriter, ShellsOfOneNumberGetNumbersOfTheirOwn) {
+  Mesh mesh = mesh::testing::cube_and_sheet();
+  mesh.shells[0].ids = {70};
+  mesh.shells[2].ids = {9};  // as the cube
+  const Mesh back = written_and_read(mesh);
+  EXPECT_EQ(back.cells.at(0).ids.at(0), 9);
+  EXPECT_EQ(back.shells.at(0).ids.at(0), 70);
+  EXPECT_EQ(back.shells.at(1).ids.at(0), 71);
+  EXPECT_EQ(back.shells.at(2).ids.at(0), 72);
+}
+
+TEST(NastranWriter, MaterialsThatTheUserAddsAreThoseOfTheShells) {
+  std::ostringstream out;
+  mesh::deck::write_nastran(mesh::testing::cube_and_sheet(), out);
+  std::string deck = out.str();
+  deck.insert(deck.find("ENDDATA"), "MAT1,1,210.,,.3\n");
+  EXPECT_THAT(refusal(deck), HasSubstr("CTRIA3 71: found a thickness of 0, expected more than 0"));
+  deck.replace(deck.find("PSHELL  2"), 32, "PSHELL  2       1       .002    ");
+  const mesh::deck::Deck read = read_deck(deck);
+  EXPECT_EQ(read.shells.at(0).section.thickness, 0.002);
+  EXPECT_EQ(read.regions.at(1).material, "mat_1");
 }
 
 TEST(NastranWriter, OtherProgramsReadPlainCards) {
