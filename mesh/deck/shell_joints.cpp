@@ -30,8 +30,8 @@ class Clamped {
     for (const Step& step : deck.steps) add_all(step.supports);
   }
 
-  bool any(const std::vector<NodeIndex>& nodes) const {
-    return std::ranges::any_of(nodes,
+  bool all(const std::vector<NodeIndex>& nodes) const {
+    return std::ranges::all_of(nodes,
                                [&](NodeIndex node) { return is_[static_cast<size_t>(node)]; });
   }
 
@@ -61,7 +61,7 @@ void refuse_hinges(const Deck& deck, const std::vector<ShellHinge>& hinges, Refu
   const ShellHinge* first = nullptr;
   int64_t count = 0;
   for (const ShellHinge& hinge : hinges) {
-    if (clamped.any(hinge.nodes)) continue;
+    if (clamped.all(hinge.nodes)) continue;
     if (first == nullptr) first = &hinge;
     ++count;
   }

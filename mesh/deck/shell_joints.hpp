@@ -20,7 +20,7 @@ struct ShellHinge {
 std::vector<bool> turning_flags(const Mesh& mesh);
 
 /// Refuses shells on nodes of solids, unless a coupling, a support or an equation has the rotation
-/// of one of these nodes: hinges.
+/// of each of these nodes: hinges.
 void refuse_hinges(const Deck& deck, const std::vector<ShellHinge>& hinges, Refusals& refusals);
 
 }  // namespace clatter::mesh::deck

@@ -198,7 +198,9 @@ TEST(NastranShells, OnesOnNodesOfSolidsAreHingesUnlessSomethingTurnsThese) {
   EXPECT_THAT(refusal(wall),
               HasSubstr("t.bdf:16: found edge 15-16 of shell CQUAD4 50 on nodes of solids, which "
                         "do not turn: a hinge; nodes of its own"));
-  const auto deck = read_deck(wall + "RBE3,60,,15,123456,1.,123,12,13\n");
+  const std::string one_end = wall + "RBE3,60,,15,123456,1.,123,12,13\n";
+  EXPECT_THAT(refusal(one_end), HasSubstr("a hinge"));
+  const auto deck = read_deck(one_end + "RBE3,61,,16,123456,1.,123,12,13\n");
   EXPECT_EQ(deck.mesh.shells.at(0).region, 1);
   EXPECT_THAT(deck.mesh.regions, ElementsAre("pid_1", "pid_2"));
   EXPECT_THAT(refusal(kSheetSection + kSolid + "CQUAD4,50,2,15,16,13,14\n"),
