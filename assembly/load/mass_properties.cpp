@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "assembly/load/mass_integral.hpp"
+#include "core/fe/shell_directors.hpp"
 #include "core/rom/rigid_mass.hpp"
 
 namespace clatter::assembly {
@@ -35,6 +36,34 @@ MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<fe::Materia
   if (mass == 0.0) return {};  // shells alone
   const Eigen::Vector3d from = first / mass;
   return {mass, about + from, second - mass * from * from.transpose()};
+}
+
+void add_shells(MassMoments& moments, const mesh::Mesh& mesh,
+                const std::vector<fe::Material>& materials,
+                const std::vector<fe::ShellSection>& sections) {
+  if (mesh.shells.empty()) return;
+  const Eigen::Vector3d about = mesh.nodes.colwise().mean().transpose();
+  const std::vector<RowMatrix> directors = fe::shell_directors(mesh.nodes, mesh.shells);
+  double mass = 0.0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  for (size_t b = 0; b < mesh.shells.size(); ++b) {
+    const int32_t region = mesh.shells[b].region;
+    const double density = materials[region].density;
+    for_each_shell_point(
+        mesh, mesh.shells[b], directors[b], sections[region], [&](const ShellPoint& point) {
+          const double dm = (density * point.thickness + sections[region].area_mass) * point.area;
+          const double rotary = density * std::pow(point.thickness, 3) / 12.0 * point.area;
+          const Eigen::Vector3d arm = point.at - about;
+          mass += dm;
+          first += dm * arm;
+          second +=
+              dm * arm * arm.transpose() + rotary * point.director * point.director.transpose();
+        });
+  }
+  if (mass == 0.0) return;
+  const Eigen::Vector3d from = first / mass;
+  add_point(moments, mass, about + from, inertia_of(second - mass * from * from.transpose()));
 }
 
 void add_point(MassMoments& moments, double mass, const Eigen::Vector3d& position,

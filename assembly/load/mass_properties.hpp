@@ -6,6 +6,7 @@
 
 #include "core/base/sparse.hpp"
 #include "core/fe/material.hpp"
+#include "core/fe/shell_section.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/rom/reduced_model.hpp"
 
@@ -21,6 +22,12 @@ struct MassMoments {
 
 /// Integrals of rho, rho x and rho x x^T over all cells; exact for curved cells too (degree 7).
 MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<fe::Material>& materials);
+
+/// Adds the shells: integrals over their mid-surfaces, with the rotary inertia of the sheet, at the
+/// points of their mass matrices.
+void add_shells(MassMoments& moments, const mesh::Mesh& mesh,
+                const std::vector<fe::Material>& materials,
+                const std::vector<fe::ShellSection>& sections);
 
 /// Adds a point mass [kg] at `position` [m] with inertia about its own centre [kg m2].
 void add_point(MassMoments& moments, double mass, const Eigen::Vector3d& position,

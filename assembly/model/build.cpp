@@ -115,12 +115,11 @@ fe::FePoints points_of(const DofNumbers& numbers, const Elimination& elimination
 
 /// M times unit accelerations of all nodes (3 columns), when a load needs it.
 Eigen::MatrixXd momentum_of(const SparseMatrix& M, const PartData& part) {
+  if (std::ranges::none_of(part.recipe.loads, &LoadSpec::is_uniform_acceleration)) return {};
   Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(M.rows(), 3);
   unit.topRows(part.numbers.nodal()) =
       Eigen::Matrix3d::Identity().replicate(part.mesh.nodes.rows(), 1);
-  for (const LoadSpec& load : part.recipe.loads)
-    if (load.is_uniform_acceleration()) return multiply_symmetric(M, unit);
-  return {};
+  return multiply_symmetric(M, unit);
 }
 
 /// M a of each load with a field of accelerations.
@@ -207,14 +206,10 @@ void add_point_masses(CoordinateBlocks& M, const PartData& part, const Constrain
   M.qq.makeCompressed();
 }
 
-/// Of the cells, point masses and mass matrices. @param shells the mass of the shells, or empty.
-rom::MassProperties mass_of(const PartData& part, const Constrained& constrained,
-                            const SparseMatrix& shells) {
+/// Of the cells, point masses and mass matrices.
+rom::MassProperties mass_of(const PartData& part, const Constrained& constrained) {
   MassMoments moments = integrate_mass(part.mesh, part.recipe.materials);
-  if (shells.nonZeros() > 0) {
-    const rom::MassProperties added = properties_of(shells, constrained.nodal_rigid);
-    add_point(moments, added.mass, added.centre, added.inertia);
-  }
+  add_shells(moments, part.mesh, part.recipe.materials, part.recipe.sections);
   for (const PointMassSpec& spec : part.recipe.point_masses) {
     const Eigen::Index point = point_of(part.numbers, spec);
     if (point < 0) {
@@ -250,11 +245,10 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
   clock.lap("pattern");
   fe::NodalMatrices nodal =
       fe::assemble(mesh, recipe.materials, pattern, recipe.mass, constrained.rigid_of_node);
-  fe::NodalMatrices shells;
   if (!mesh.shells.empty()) {
-    shells = fe::assemble_shells(mesh, recipe.materials, recipe.sections,
-                                 shell_ids(numbers, mesh.nodes.rows()), recipe.mass,
-                                 constrained.rigid_of_turning_node);
+    const fe::NodalMatrices shells = fe::assemble_shells(
+        mesh, recipe.materials, recipe.sections, shell_ids(numbers, mesh.nodes.rows()), recipe.mass,
+        constrained.rigid_of_turning_node);
     add(nodal.K, shells.K);
     add(nodal.M, shells.M);
   }
@@ -271,7 +265,7 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
   add_matrices(recipe.matrices, constrained.matrix_dofs, true, elimination, M);
   clock.lap("transform");
   add_point_masses(M, part, constrained, points);
-  const rom::MassProperties mass = mass_of(part, constrained, shells.M);
+  const rom::MassProperties mass = mass_of(part, constrained);
   check_references(mesh.name, constrained.sets, M.qq);
   check_stiffness(mesh, constrained.sets, K.qq);
   LoadVectors loads = load_vectors(part, constrained, inputs);

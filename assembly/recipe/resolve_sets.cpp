@@ -58,7 +58,7 @@ NodeSpec Resolver::sensor(const recipe::Sensor& sensor, size_t) {
   names_.add_set(sensor.source, sensor.name);
   const Selection selection =
       names_.selection(sensor.source, "sensor " + sensor.name, {.surface = sensor.surface});
-  return {sensor.name, "sensor", selection.where, {{selection, 1.0, {}, {}}}, sensor.near};
+  return {sensor.name, "sensor", selection.where, {{selection, 1.0, {0, 1, 2}, {}}}, sensor.near};
 }
 
 NodeSpec Resolver::nodes(const recipe::Nodes& nodes, size_t) {

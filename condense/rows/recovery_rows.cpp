@@ -71,6 +71,7 @@ rom::Skin SkinRecovery::recover(const RowMatrix& static_rows, const RowMatrix& s
   skin.triangles = faces_.triangles;
   skin.surfaces = surfaces_;
   skin.faces = faces_.of_surface;
+  skin.sheet = faces_.sheet;
   const auto n = static_cast<Eigen::Index>(faces_.points.size());
   skin.nodes = RowMatrix::Zero(n, 3);
   for (Eigen::Index p = 0; p < n; ++p)

@@ -95,10 +95,10 @@ class Builder {
   std::vector<int32_t> corners_;
 };
 
-/// body(type, nodes) for each face of a surface.
-template <class Body>
-void for_each_face(const mesh::Surface& surface, Body&& body) {
-  for (const mesh::FaceBlock& block : surface.faces)
+/// body(type, nodes) for each face of some blocks.
+template <class Blocks, class Body>
+void for_each_face(const Blocks& blocks, Body&& body) {
+  for (const auto& block : blocks)
     for (Eigen::Index f = 0; f < block.nodes.rows(); ++f)
       body(block.type, std::span<const int32_t>(block.nodes.data() + f * block.nodes.cols(),
                                                 static_cast<size_t>(block.nodes.cols())));
@@ -109,19 +109,23 @@ void for_each_face(const mesh::Surface& surface, Body&& body) {
 SkinFaces skin_faces(const fe::FeModel& model, const std::vector<std::string>& surfaces) {
   Builder builder(model.nodes.rows());
   for (const std::string& name : surfaces)
-    for_each_face(find_named(model.surfaces, model.name + ": skin", "surface", name),
+    for_each_face(find_named(model.surfaces, model.name + ": skin", "surface", name).faces,
                   [&](FaceType type, std::span<const int32_t> f) { builder.add(type, f); });
   SkinFaces out = builder.finish();
-  for (const auto& [name, surface] : model.surfaces) {
+  const auto triangles_on = [&](const auto& blocks) {
     std::vector<int32_t> rows;
-    for_each_face(surface, [&](FaceType type, std::span<const int32_t> f) {
+    for_each_face(blocks, [&](FaceType type, std::span<const int32_t> f) {
       const auto [first, end] = builder.triangles_of(type, f);
       for (int32_t row = first; row < end; ++row) rows.push_back(row);
     });
     std::sort(rows.begin(), rows.end());
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-    if (!rows.empty()) out.of_surface[name] = std::move(rows);
-  }
+    return rows;
+  };
+  for (const auto& [name, surface] : model.surfaces)
+    if (std::vector<int32_t> rows = triangles_on(surface.faces); !rows.empty())
+      out.of_surface[name] = std::move(rows);
+  out.sheet = triangles_on(model.cells.shells);
   return out;
 }
 

@@ -20,6 +20,7 @@ struct SkinFaces {
   IndexMatrix triangles;          // f x 6, rows of `points`, outward
   /// Triangles on each surface of the model, ascending; those without one are absent.
   std::map<std::string, std::vector<int32_t>> of_surface;
+  std::vector<int32_t> sheet;  // triangles that are shells, ascending
 };
 
 /// All faces of the named surfaces, each once. A quadrilateral becomes two triangles along its

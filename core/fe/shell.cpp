@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <array>
 
+#include "core/fe/element.hpp"
 #include "core/fe/shell_kinematics.hpp"
 
 namespace clatter::fe {
@@ -99,7 +100,7 @@ Condensed condense(const ShellTheory& theory, const ShellCell& cell, const Eigen
 
 /// int h_i h_j of the mass and of the rotary inertia per area.
 struct NodalMass {
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4> mass, rotary;
+  Eigen::MatrixXd mass, rotary;
 };
 
 NodalMass nodal_mass(const MidSurface& mid, const ShellCell& cell) {
@@ -118,32 +119,16 @@ NodalMass nodal_mass(const MidSurface& mid, const ShellCell& cell) {
   return out;
 }
 
-/// The diagonal scaled to the same total (lump_hrz of element.hpp).
-void lump(Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>& m) {
-  const double trace = m.trace();
-  if (!(trace > 0.0)) return;
-  const ShellWeights diagonal = m.sum() / trace * m.diagonal();
-  m = diagonal.asDiagonal();
-}
-
-/// Without components that are rounding: a rotation about the axis that is left has no mass,
-/// instead of one of the square of rounding.
-Eigen::RowVector3d without_rounding(const Eigen::RowVector3d& director) {
-  constexpr double kRounding = 1e-6;
-  return (director.array().abs() < kRounding).select(0.0, director);
-}
-
 /// Of the mid-surface. A rotation about a director moves no mass: its inertia is that of
 /// w = theta x V.
 ShellMatrix mass_of(const MidSurface& mid, const ShellCell& cell, MassForm form) {
   NodalMass nodal = nodal_mass(mid, cell);
-  if (form == MassForm::kHrz) {
-    lump(nodal.mass);
-    lump(nodal.rotary);
-  }
+  if (form == MassForm::kHrz)
+    for (Eigen::MatrixXd* m : {&nodal.mass, &nodal.rotary})
+      if (m->trace() > 0.0) lump_hrz(*m);
   const Eigen::Index n = mid.x.rows();
   std::array<Eigen::Matrix3d, 4> turned;  // theta x V = turned theta
-  for (Eigen::Index i = 0; i < n; ++i) turned[i] = cross_matrix(without_rounding(mid.V.row(i)));
+  for (Eigen::Index i = 0; i < n; ++i) turned[i] = cross_matrix(mid.V.row(i));
   ShellMatrix M = ShellMatrix::Zero(6 * n, 6 * n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -155,11 +140,10 @@ ShellMatrix mass_of(const MidSurface& mid, const ShellCell& cell, MassForm form)
 }
 
 /// From DoFs of the mid-surface to those of the nodes: u_mid = u + theta x (offset V).
-/// @param V directors.
-void to_nodes(double offset, const ShellNodes& V, ShellMatrix& A) {
-  if (offset == 0.0) return;
-  for (Eigen::Index i = 0; i < V.rows(); ++i) {
-    const Eigen::Matrix3d arm = cross_matrix(offset * V.row(i));
+void to_nodes(const ShellCell& cell, ShellMatrix& A) {
+  if (cell.offset == 0.0) return;
+  for (Eigen::Index i = 0; i < cell.x.rows(); ++i) {
+    const Eigen::Matrix3d arm = cross_matrix(cell.offset * cell.directors.row(i));
     A.middleCols<3>(6 * i + 3) += A.middleCols<3>(6 * i).lazyProduct(arm);
     A.middleRows<3>(6 * i + 3) += arm.transpose().lazyProduct(A.middleRows<3>(6 * i));
   }
@@ -174,10 +158,8 @@ bool compute_shell(const ShellCell& cell, MassForm form, ShellMatrices& out) {
     const ShellMatrix K = condense(theory, cell, {}).K;
     out.stiffness = 0.5 * (K + K.transpose());
     out.mass = mass_of(mid, cell, form);
-    to_nodes(cell.offset, cell.directors, out.stiffness);
-    ShellNodes V = cell.directors;
-    for (Eigen::Index i = 0; i < V.rows(); ++i) V.row(i) = without_rounding(V.row(i));
-    to_nodes(cell.offset, V, out.mass);
+    to_nodes(cell, out.stiffness);
+    to_nodes(cell, out.mass);
     return true;
   });
 }

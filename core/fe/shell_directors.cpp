@@ -8,6 +8,8 @@
 namespace clatter::fe {
 namespace {
 
+constexpr double kRounding = 1e-6;  // of decks with seven digits
+
 /// A corner of a cell.
 struct Corner {
   int32_t block, cell, node;
@@ -71,7 +73,9 @@ std::vector<RowMatrix> shell_directors(const RowMatrix& nodes,
         const double cosine = normal.dot(other);
         if (std::abs(cosine) > fold) sum += cosine > 0.0 ? other : Eigen::Vector3d(-other);
       }
-      out[own.block].row(own.cell).segment<3>(3 * own.node) = (sum / sum.norm()).transpose();
+      sum /= sum.norm();
+      out[own.block].row(own.cell).segment<3>(3 * own.node) =
+          (sum.array().abs() < kRounding).select(0.0, sum).transpose();
     }
   return out;
 }

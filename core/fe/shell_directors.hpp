@@ -12,6 +12,8 @@ namespace clatter::fe {
 /// of the normals there of the cells around the node that lie within 20 degrees of its own,
 /// whatever their side: at sharper folds, and where more than two sheets meet, each side keeps its
 /// own.
+/// Components of rounding are 0: a rotation about the axis that is left has no mass then, instead
+/// of one of the square of rounding (hard case U7).
 std::vector<RowMatrix> shell_directors(const RowMatrix& nodes,
                                        const std::vector<mesh::ShellBlock>& shells);
 

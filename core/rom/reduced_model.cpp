@@ -113,6 +113,7 @@ void write_skin(H5File& file, const Skin& skin) {
   file.write("skin/T", skin.T);
   file.write("skin/surfaces", skin.surfaces);
   for (const auto& [name, faces] : skin.faces) file.write("skin/faces/" + name, faces);
+  if (!skin.sheet.empty()) file.write("skin/sheet", skin.sheet);
 }
 
 [[noreturn]] void refuse_skin(const H5File& file, const std::string& what) {
@@ -137,6 +138,7 @@ Skin read_geometry(const H5File& file, Eigen::Index size) {
   if (file.has("skin/surfaces")) skin.surfaces = file.read_strings("skin/surfaces");
   for (const std::string& name : file.list("skin/faces"))
     skin.faces[name] = read_faces(file, "skin/faces/" + name, skin.triangles.rows());
+  if (file.has("skin/sheet")) skin.sheet = read_faces(file, "skin/sheet", skin.triangles.rows());
   if (skin.nodes.cols() != 3 || skin.triangles.cols() != 6) {
     refuse_skin(file, fmt::format("found {} coordinates and {} nodes a triangle, expected 3 and 6",
                                   skin.nodes.cols(), skin.triangles.cols()));

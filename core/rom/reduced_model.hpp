@@ -71,6 +71,7 @@ struct Skin {
   /// Rows of `triangles` that lie on each named surface of the FE model, ascending. Surfaces that
   /// are not part of the skin are absent; all are in files of older versions.
   std::map<std::string, std::vector<int32_t>> faces{};
+  std::vector<int32_t> sheet{};  // rows of `triangles` that are shells, ascending
 };
 
 struct ReducedModel {

@@ -251,10 +251,22 @@ void place_microphones(const SoundOptions& options, const sound::Surface& skin, 
   }
 }
 
+/// Air moves on both sides of a sheet, of which the boundary elements have one.
+void refuse_sheet(const rom::Skin& skin) {
+  if (skin.sheet.empty()) return;
+  const Eigen::RowVector3d at = skin.nodes.row(skin.triangles(skin.sheet[0], 0));
+  throw InputError(fmt::format(
+      "found {} of {} triangles of the skin on shells, the first at ({:.4f}, {:.4f}, {:.4f}) m, "
+      "expected faces of solids alone: air on both sides of a sheet is not computed; surfaces "
+      "without shells (skin of the rom.toml) are, and the equivalent radiated power of a run",
+      skin.sheet.size(), skin.triangles.rows(), at(0), at(1), at(2)));
+}
+
 }  // namespace
 
 PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options, StepClock& clock,
                      const EarlierSamples& earlier) {
+  refuse_sheet(model.skin);
   check_limit(model, options);
   const sound::Space space = options.space();
   PartSound out;

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "block_mesh.hpp"
 #include "core/base/artefact.hpp"
+#include "core/mesh/boundary.hpp"
 #include "modal/statics.hpp"
 #include "sheet.hpp"
 #include "small_solver.hpp"
@@ -187,6 +189,61 @@ TEST(Sheet, HeldBesideItsMiddleAndWarmItBends) {
   const double bent = 0.5 * kE * kT * k;
   EXPECT_NEAR(warm.stress.at(0).stress(8, 0), N / (kB * kT) + bent, 1e-8 * bent);
   EXPECT_NEAR(warm.stress.at(1).stress(8, 0), N / (kB * kT) - bent, 1e-8 * bent);
+}
+
+TEST(Sheet, ASensorHasDisplacementsAlone) {
+  const fe::FeModel model =
+      clamped_strip("[[sensor]]\nname = \"s\"\nsurface = \"skin\"\nnear = [0.4, 0.0, 0.0]\n");
+  EXPECT_EQ(model.sets.at("s").labels, (std::vector<std::string>{"s.x", "s.y", "s.z"}));
+}
+
+// The certificate compares M with integrals over the sheet.
+TEST(Sheet, MassOfACurvedTaperedSheetIsThatOfItsIntegrals) {
+  mesh::Mesh mesh = sheet(kL, kB, 8, 4);
+  mesh::ShellBlock& block = mesh.shells[0];
+  block.thickness.resize(block.nodes.rows(), 4);
+  for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
+    mesh.nodes(a, 2) =
+        0.02 * std::sin(9.0 * mesh.nodes(a, 0)) + mesh.nodes(a, 0) * mesh.nodes(a, 1);
+  for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
+    for (Eigen::Index k = 0; k < 4; ++k)
+      block.thickness(c, k) = 0.002 + 0.01 * mesh.nodes(block.nodes(c, k), 0);
+  const auto built = build_all(mesh, kSheetSteel + "offset = 0.003\narea_mass = 2.0\n");
+  EXPECT_LT(*built.certificate.mass_error, 1e-13);
+  EXPECT_LT(*built.certificate.centre_error, 1e-12);
+  EXPECT_LT(*built.certificate.inertia_error, 1e-12);
+}
+
+/// A block with a sheet above it, half a thickness away, tied by the sheet's own faces, or by them
+/// turned towards the block.
+fe::FeModel on_a_block(bool turned) {
+  mesh::Mesh mesh =
+      assembly::testing::block_mesh({4, 2, 1}, assembly::testing::brick({0.4, 0.05, 0.02}));
+  const auto first = static_cast<int32_t>(mesh.nodes.rows());
+  mesh::Mesh above = sheet(0.4, 0.05, 8, 2);
+  above.nodes.col(2).setConstant(0.021);
+  mesh.nodes.conservativeResize(first + above.nodes.rows(), 3);
+  mesh.nodes.bottomRows(above.nodes.rows()) = above.nodes;
+  mesh.regions.push_back("sheet");
+  mesh::ShellBlock block = above.shells[0];
+  block.nodes.array() += first;
+  block.region = 1;
+  mesh.shells = {block};
+  mesh.node_sets.clear();
+  mesh.surfaces["skin"] = mesh::skin_of(mesh::boundary_faces(mesh), mesh.shells);
+  mesh.surfaces["sheet"] = mesh::shell_surface(mesh);
+  if (turned) mesh.surfaces["sheet"].faces[0].nodes.rowwise().reverseInPlace();
+  return build_all(mesh, kSheetSteel +
+                             "[material.iron]\nregions = [\"body\"]\nE = 1e11\nnu = 0.3\n"
+                             "rho = 7000.0\n[[tie]]\nslave = \"sheet\"\nmaster = \"z1\"\n")
+      .model;
+}
+
+TEST(Sheet, IsTiedByEitherOfItsFaces) {
+  const fe::FeModel own = on_a_block(false), turned = on_a_block(true);
+  EXPECT_LT(own.size(), own.T.rows() + 3 * static_cast<int64_t>(own.rotations.nodes.size()));
+  EXPECT_EQ(own.size(), turned.size());
+  EXPECT_LT((own.K - turned.K).norm(), 1e-12 * own.K.norm());
 }
 
 TEST(Sheet, ComesBackFromItsFile) {

@@ -46,7 +46,8 @@ ROUNDING = 1e-12  # of displacements and rotations
 OTHER_SHELLS = 0.01
 # Why figures differ.
 COARSE = "; few cells, which bend between their nodes in the deck's program"
-EXPLAINED = {"rbe3": COARSE, "pload4d": COARSE,
+EXPLAINED = {"rbe3": COARSE, "pload4d": COARSE, "nas101prob3": COARSE,
+             "nas101prob6": "; distorted cells held at two nodes: 669, 490, 412, 353 Hz as each is divided on",
              "nas101prob4": "; rotations about the normal of a shell have no stiffness in the deck's program",
              "nas102prob14a": "; beams have the rotary inertia of their sections, which the coupled mass of the deck's program leaves out"}
 NOT_LINEAR = {105: "buckling", 106: "nonlinear"}

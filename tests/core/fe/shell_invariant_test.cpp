@@ -142,11 +142,11 @@ TEST_P(ShellOfNodes, LumpedMassHasTheTotalAndNoMassAboutTheDirector) {
 }
 
 TEST(ShellMass, HardU7_ASheetTiltedByRoundingHasNoMassAboutItsNormal) {
-  const Eigen::Matrix3d tilt =
-      Eigen::AngleAxisd(1e-9, Eigen::Vector3d(1.0, 2.0, 0.0).normalized()).toRotationMatrix();
   Plate plate = kPlate;
-  for (const double offset : {0.0, 1e-3}) {
-    plate.offset = offset;
+  for (const double angle : {1e-9, 3e-7}) {
+    const Eigen::Matrix3d tilt =
+        Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, 2.0, 0.0).normalized()).toRotationMatrix();
+    plate.offset = 3e3 * angle;
     ShellNodes x(4, 3);
     x << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
     ShellMatrices out;
