@@ -14,7 +14,7 @@ constexpr const char* kEpilog =
     R"(A part is described in TOML (lengths in length_unit, default mm):
 
   name = "beam"
-  kind = "box"                    # block, piston, rod, box, cylinder or cad
+  kind = "box"                    # or block, piston, rod, cylinder, pan, cad, sheet
   [box]
   size = [200.0, 20.0, 10.0]
   [mesh]
@@ -38,6 +38,10 @@ solids one that are nearer than that (clearances, steps of micrometres); surface
 cylinder = { radius, point, axis }, plane = { normal, height }, box = { min, max },
 outside = { min, max }.
 
+Sheet metal: kind = "sheet" meshes faces of CAD with shells: all faces of a file without solids, the
+middle of a solid of constant thickness, or those that [sheet.faces] selects; [edge.NAME] names node
+sets on edges. kind = "pan" is an oil pan from its dimensions.
+
 Examples:
   clatter-mesh faces part.step                   (lists its faces; -o part.faces.h5 to draw them)
   clatter-mesh part.step -o part.mesh.h5         (writes part.mesh.toml too: change it, run it)
@@ -53,7 +57,8 @@ int main(int argc, char** argv) {
   using namespace clatter;
   CommandLine program("clatter-mesh",
                       "Builds or imports a part's geometry and meshes it with quadratic "
-                      "tetrahedra, or reads the mesh of a deck; proves it and names its surfaces.",
+                      "tetrahedra, sheet with shells, or reads the mesh of a deck; proves it and "
+                      "names its surfaces.",
                       kEpilog);
   mesh::declare_mesh(program);
   mesh::declare_faces(program);

@@ -23,6 +23,7 @@
 #include "mesh/part/part_in_child.hpp"
 #include "mesh/repair/certify_mesh.hpp"
 #include "mesh/repair/poor_cells.hpp"
+#include "mesh/repair/shell_quality.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -162,6 +163,7 @@ std::vector<std::string> describe(const NewMesh& result) {
         pieces.count, pieces.coincident_nodes));
   if (c.volume_against_cad)
     lines.push_back(fmt::format("mesh: volume against CAD {:+.2e}", *c.volume_against_cad));
+  if (!result.mesh.shells.empty()) lines.push_back(describe(measure_shells(result.mesh)));
   if (result.mesh.cells.empty()) return lines;
   lines.push_back(fmt::format("mesh: volume against the surface integral {:.1e}",
                               c.volume_against_surface_integral));

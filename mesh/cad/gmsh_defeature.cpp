@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/cad/gmsh_defeature.hpp"
 
-#include <unistd.h>
-
 #include <BRepAlgoAPI_Defeaturing.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
-#include <BRepTools.hxx>
-#include <BRep_Builder.hxx>
 #include <GProp_GProps.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Shape.hxx>
-#include <filesystem>
-#include <fstream>
 
 #include "mesh/cad/gmsh_call.hpp"
+#include "mesh/cad/gmsh_shape.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -40,28 +35,6 @@ double width_of(const TopoDS_Shape& face) {
   GProp_GProps edges;
   BRepGProp::LinearProperties(face, edges);
   return edges.Mass() > 0.0 ? 2.0 * surface_of(face).Mass() / edges.Mass() : 0.0;
-}
-
-// Gmsh exports its shapes only by file. The temporary file is unlinked once it is open.
-TopoDS_Shape shape_of_session(GmshSession& session) {
-  std::string name =
-      (std::filesystem::temp_directory_path() / "clatter-defeature-XXXXXX.brep").string();
-  const int file = ::mkstemps(name.data(), 5);
-  if (file < 0) throw FileError(fmt::format("{}: cannot be created", name));
-  ::close(file);
-  TopoDS_Shape shape;
-  try {
-    session.write_cad(name, "mm");
-    std::ifstream stream(name);
-    BRep_Builder builder;
-    BRepTools::Read(shape, stream, builder);
-  } catch (...) {
-    std::filesystem::remove(name);
-    throw;
-  }
-  std::filesystem::remove(name);
-  if (shape.IsNull()) throw NumericsError("[cad] defeature_below: the shape cannot be read back");
-  return shape;
 }
 
 TopoDS_Shape without_narrow_faces(const TopoDS_Shape& shape, double below, int& narrow_faces) {

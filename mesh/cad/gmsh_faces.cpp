@@ -22,17 +22,20 @@ std::vector<Eigen::Vector3d> points_of(int dim, int tag, const std::vector<doubl
   return points;
 }
 
+std::vector<Eigen::Vector3d> sample_edge(int curve) {
+  std::vector<double> low, high, t;
+  gmsh::model::getParametrizationBounds(1, curve, low, high);
+  for (int i = 0; i < kEdgeSamples; ++i)
+    t.push_back(low[0] + (high[0] - low[0]) * i / (kEdgeSamples - 1));
+  return points_of(1, curve, t);
+}
+
 std::vector<Eigen::Vector3d> sample_edges(int face) {
   gmsh::vectorpair curves;
   gmsh::model::getBoundary({{2, face}}, curves, false, false, false);
   std::vector<Eigen::Vector3d> points;
   for (const auto& [dim, tag] : curves) {
-    std::vector<double> low, high, t;
-    gmsh::model::getParametrizationBounds(1, tag, low, high);
-    for (int i = 0; i < kEdgeSamples; ++i) {
-      t.push_back(low[0] + (high[0] - low[0]) * i / (kEdgeSamples - 1));
-    }
-    const auto on_curve = points_of(1, tag, t);
+    const auto on_curve = sample_edge(tag);
     points.insert(points.end(), on_curve.begin(), on_curve.end());
   }
   return points;
@@ -119,12 +122,30 @@ std::vector<FaceFacts> GmshSession::faces(bool shared) {
     synchronize();
     gmsh::vectorpair tags;
     gmsh::model::getEntities(tags, 2);
+    gmsh::vectorpair solids;
+    gmsh::model::getEntities(solids, 3);
     std::vector<FaceFacts> facts;
     for (const auto& [dim, tag] : tags) {
       std::vector<int> up, down;
       gmsh::model::getAdjacencies(2, tag, up, down);
-      if (up.size() == 1) facts.push_back(facts_of(tag));
+      if (up.size() == 1 || solids.empty()) facts.push_back(facts_of(tag));
       if (up.size() == 2 && shared) facts.insert(facts.end(), 2, facts_of(tag));
+    }
+    return facts;
+  });
+}
+
+std::vector<FaceFacts> GmshSession::edges() {
+  return gmsh_call("edges", [&] {
+    synchronize();
+    gmsh::vectorpair tags;
+    gmsh::model::getEntities(tags, 1);
+    std::vector<FaceFacts> facts;
+    for (const auto& [dim, tag] : tags) {
+      FaceFacts& edge = facts.emplace_back();
+      edge.tag = tag;
+      edge.edge_points = sample_edge(tag);
+      edge.centre = edge.edge_points[kEdgeSamples / 2];
     }
     return facts;
   });

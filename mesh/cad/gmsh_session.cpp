@@ -6,6 +6,8 @@
 #include <set>
 
 #include "mesh/cad/gmsh_call.hpp"
+#include "mesh/cad/gmsh_elements.hpp"
+#include "mesh/cad/gmsh_sizes.hpp"
 #include "mesh/cad/skin_crossing.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
@@ -16,7 +18,6 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libTK\nleak:
 namespace clatter::mesh {
 namespace {
 
-constexpr int kTri3 = 2, kTet4 = 4, kTri6 = 9, kTet10 = 11;  // Gmsh element types
 std::atomic<bool> session_lives = false;
 
 void set_options() {
@@ -34,125 +35,6 @@ void set_options() {
       {"Mesh.RandomSeed", 1},
   };
   for (const auto& [name, value] : options) gmsh::option::setNumber(name, value);
-}
-
-// A local size of a face also applies to its curves: faces are meshed from their edges.
-std::map<int, double> curve_sizes(const std::map<int, double>& face_sizes) {
-  std::map<int, double> sizes;
-  for (const auto& [face, size] : face_sizes) {
-    std::vector<int> up, curves;
-    gmsh::model::getAdjacencies(2, face, up, curves);
-    for (int curve : curves) {
-      const auto known = sizes.find(curve);
-      if (known == sizes.end() || size < known->second) sizes[curve] = size;
-    }
-  }
-  return sizes;
-}
-
-// The size that the spots allow at x.
-double spot_size(const std::vector<FineSpot>& spots, double size, const Eigen::Vector3d& x) {
-  constexpr double kGrowth = 0.5;  // per length: neighbours differ by less than a factor of 2
-  for (const FineSpot& spot : spots) {
-    const double beyond = std::max(0.0, (x - spot.centre).norm() - spot.radius);
-    size = std::min(size, spot.size + kGrowth * beyond);
-  }
-  return size;
-}
-
-// Gmsh's fields: the distance from sample points of the face, and a size that grows with it.
-void set_gradations(const SizeSettings& settings) {
-  constexpr double kSampling = 40;  // points along each direction of a face
-  namespace field = gmsh::model::mesh::field;
-  std::vector<double> thresholds;
-  for (const Gradation& g : settings.gradations) {
-    const int distance = field::add("Distance"), threshold = field::add("Threshold");
-    field::setNumbers(distance, "FacesList", {static_cast<double>(g.face)});
-    field::setNumber(distance, "NNodesByEdge", kSampling);
-    field::setNumber(threshold, "IField", distance);
-    field::setNumber(threshold, "LcMin", g.size);
-    field::setNumber(threshold, "LcMax", settings.size);
-    field::setNumber(threshold, "DistMin", 0.0);
-    field::setNumber(threshold, "DistMax", (settings.size - g.size) / g.growth);
-    thresholds.push_back(threshold);
-  }
-  if (thresholds.empty()) return;
-  const int smallest = field::add("Min");
-  field::setNumbers(smallest, "FieldsList", thresholds);
-  field::setAsBackgroundMesh(smallest);
-}
-
-void set_sizes(const SizeSettings& settings) {
-  constexpr double kMeshAdapt = 1, kFrontalDelaunay = 6;
-  gmsh::option::setNumber("Mesh.Algorithm",
-                          settings.adaptive_faces ? kMeshAdapt : kFrontalDelaunay);
-  gmsh::option::setNumber("Mesh.MeshSizeMax", settings.size);
-  gmsh::option::setNumber("Mesh.MeshSizeMin", settings.min_size);
-  gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", settings.per_turn);
-  gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 1);
-  gmsh::model::mesh::removeSizeCallback();
-  set_gradations(settings);
-  if (settings.face_sizes.empty() && settings.spots.empty()) return;
-  const auto local_size = [settings, curves = curve_sizes(settings.face_sizes)](
-                              int dim, int tag, const Eigen::Vector3d& x) {
-    const double size = spot_size(settings.spots, settings.size, x);
-    if (dim != 1 && dim != 2) return size;
-    const auto& sizes = dim == 2 ? settings.face_sizes : curves;
-    const auto found = sizes.find(tag);
-    return found == sizes.end() ? size : std::min(size, found->second);
-  };
-  // Gmsh 4.8 takes the smaller of its own size and the one returned; since 4.9 it passes its own as
-  // a sixth argument, which the one returned replaces (hard case G10).
-  gmsh::model::mesh::setSizeCallback(
-      [local_size](int dim, int tag, double x, double y, double z, auto... own_size) {
-        return std::min({local_size(dim, tag, {x, y, z}), own_size...});
-      });
-}
-
-// Gmsh's node tags -> rows; only nodes of cells are kept, in ascending order of their tags.
-class NodeNumbers {
- public:
-  void use(const std::vector<size_t>& tags) { used_.insert(used_.end(), tags.begin(), tags.end()); }
-  void close() {
-    std::sort(used_.begin(), used_.end());
-    used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
-  }
-  int32_t row(size_t tag) const {
-    const auto at = std::lower_bound(used_.begin(), used_.end(), tag);
-    if (at == used_.end() || *at != tag) {
-      throw NumericsError("Gmsh left a face with a node that belongs to no cell");
-    }
-    return static_cast<int32_t>(at - used_.begin());
-  }
-  bool has(size_t tag) const { return std::binary_search(used_.begin(), used_.end(), tag); }
-  const std::vector<size_t>& tags() const { return used_; }
-
- private:
-  std::vector<size_t> used_;
-};
-
-IndexMatrix table_of(const std::vector<size_t>& tags, int columns, const NodeNumbers& numbers) {
-  IndexMatrix table(static_cast<Eigen::Index>(tags.size()) / columns, columns);
-  for (size_t i = 0; i < tags.size(); ++i) table.data()[i] = numbers.row(tags[i]);
-  return table;
-}
-
-std::vector<size_t> element_nodes(int type, int entity) {
-  std::vector<size_t> elements, nodes;
-  gmsh::model::mesh::getElementsByType(type, elements, nodes, entity);
-  return nodes;
-}
-
-RowMatrix coordinates_of(const NodeNumbers& numbers) {
-  std::vector<size_t> tags;
-  std::vector<double> xyz, parameters;
-  gmsh::model::mesh::getNodes(tags, xyz, parameters, -1, -1, false, false);
-  RowMatrix nodes(static_cast<Eigen::Index>(numbers.tags().size()), 3);
-  for (size_t i = 0; i < tags.size(); ++i) {
-    if (!numbers.has(tags[i])) continue;
-    nodes.row(numbers.row(tags[i])) << xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2];
-  }
-  return nodes;
 }
 
 }  // namespace

@@ -54,6 +54,16 @@ struct RawMesh {
       face_cells;  // by face tag: tri3 or tri6, orientation as the face has it
 };
 
+/// A mesh of faces alone; tables hold rows of `nodes`.
+struct RawSheet {
+  struct Cells {
+    IndexMatrix tri3, quad4;  // orientation as the face has it
+  };
+  RowMatrix nodes;                   // n x 3, all of them of cells
+  std::map<int, Cells> faces;        // by face tag
+  std::map<int, IndexMatrix> edges;  // by curve tag: lines of two nodes
+};
+
 /// Elements of one kind in one entity of a Gmsh file.
 struct MshElements {
   int dim = 0, gmsh_type = 0, nodes_each = 0;
@@ -115,6 +125,9 @@ class GmshSession {
   /// Solids of a STEP, BREP or IGES file, lengths converted to `unit` ("mm", "m", "cm", "in") where
   /// the format has units (STEP, IGES). InputError when it holds no solid.
   Solids import_cad(const std::filesystem::path& path, const std::string& unit);
+  /// The same of a file for a sheet: its solids, or its faces where it has none. Faces of different
+  /// shapes that touch share edges. InputError when it holds neither.
+  Solids import_sheet(const std::filesystem::path& path, const std::string& unit);
   /// Replaces all solids by those of `shape`, an OpenCASCADE TopoDS_Shape.
   Solids replace_solids(const void* shape);
   /// Writes all solids as STEP (.step, .stp) or BREP (.brep), by the extension of the name;
@@ -122,7 +135,8 @@ class GmshSession {
   void write_cad(const std::filesystem::path& path, const std::string& unit);
 
   // --- faces (gmsh_faces.cpp) ---
-  /// Faces that bound exactly one solid, by ascending tag; kEdgeSamples points of each edge.
+  /// Faces that bound exactly one solid, by ascending tag; kEdgeSamples points of each edge. All
+  /// faces where there is no solid.
   std::vector<FaceFacts> boundary_faces();
   /// Faces of each solid in turn: those between two solids appear twice.
   std::vector<FaceFacts> faces_of_solids();
@@ -132,6 +146,22 @@ class GmshSession {
   double smallest_radius(int face);
   /// Smallest and largest coordinates of all solids, from the edges of their faces.
   BoxFilter extent();
+
+  // --- sheets (gmsh_sheet.cpp) ---
+  /// A box with rounded vertical edges.
+  Solid rounded_box(const Eigen::Vector3d& min, const Eigen::Vector3d& max, double radius);
+  /// Rounds the edges that lie in a box.
+  Solids fillet(const Solids& solids, const BoxFilter& edges, double radius);
+  std::vector<int> all_faces() const;
+  std::vector<int> curves_of(int face);
+  /// All curves: tag and edge_points alone.
+  std::vector<FaceFacts> edges();
+  /// Faces that touch or cross share edges; without solids.
+  void join_faces();
+  /// Removes all solids, and the other faces.
+  void keep_faces(const std::vector<int>& faces);
+  /// Meshes all faces, with quadrilaterals as far as they go.
+  RawSheet generate_sheet(const SizeSettings& settings, bool triangles);
 
   // --- mesh (gmsh_session.cpp) ---
   /// Meshes all solids with linear tetrahedra, from scratch at each call. NumericsError, with the
@@ -163,6 +193,8 @@ class GmshSession {
 
  private:
   void synchronize();
+  std::vector<std::pair<int, int>> import_shapes(const std::filesystem::path& path,
+                                                 const std::string& unit, bool make_solids);
   std::vector<FaceFacts> faces(bool shared);
   RawMesh extract_skin() const;
   std::string reason_of_failure() const;

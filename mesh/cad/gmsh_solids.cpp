@@ -247,7 +247,8 @@ Solids GmshSession::all_solids() const {
   return untagged(pairs);
 }
 
-Solids GmshSession::import_cad(const std::filesystem::path& path, const std::string& unit) {
+gmsh::vectorpair GmshSession::import_shapes(const std::filesystem::path& path,
+                                            const std::string& unit, bool make_solids) {
   if (!std::filesystem::exists(path)) {
     throw InputError(fmt::format("{}: file not found", path.string()));
   }
@@ -269,14 +270,29 @@ Solids GmshSession::import_cad(const std::filesystem::path& path, const std::str
     gmsh::option::setString("Geometry.OCCTargetUnit", occ_unit(unit));  // before import (G6)
     // IGES mostly holds separate faces: they are sewn to solids.
     gmsh::option::setNumber("Geometry.OCCSewFaces", iges);
-    gmsh::option::setNumber("Geometry.OCCMakeSolids", iges);
+    gmsh::option::setNumber("Geometry.OCCMakeSolids", iges && make_solids);
     occ::importShapes(path.string(), out);
   });
   synchronized_ = false;
-  const Solids solids = untagged(out);
-  if (solids.empty()) {
-    throw InputError(fmt::format("{}: found no solid, expected at least one", path.string()));
-  }
+  return out;
+}
+
+Solids GmshSession::import_cad(const std::filesystem::path& path, const std::string& unit) {
+  const gmsh::vectorpair shapes = import_shapes(path, unit, true);
+  const Solids solids = untagged(shapes);
+  if (!solids.empty()) return solids;
+  const bool has_faces =
+      std::ranges::any_of(shapes, [](const auto& pair) { return pair.first == 2; });
+  throw InputError(fmt::format("{}: found no solid, expected at least one{}", path.string(),
+                               has_faces ? "; kind = \"sheet\" meshes its faces as shells" : ""));
+}
+
+Solids GmshSession::import_sheet(const std::filesystem::path& path, const std::string& unit) {
+  const gmsh::vectorpair shapes = import_shapes(path, unit, false);
+  const Solids solids = untagged(shapes);
+  if (solids.empty() && all_faces().empty())
+    throw InputError(
+        fmt::format("{}: found neither a solid nor a face, expected a sheet", path.string()));
   return solids;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/deck/shell_shape.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
+
+#include "core/mesh/shell_shape.hpp"
 
 namespace clatter::mesh::deck {
 namespace {
@@ -81,26 +82,15 @@ std::vector<ShellFace> linear_parts(const ShellFace& face) {
   return {face};
 }
 
-ShellShape shape_of(const ShellFace& face, const RowMatrix& nodes) {
+FlatShape shape_of(const ShellFace& face, const RowMatrix& nodes) {
   const auto n = static_cast<size_t>(traits(face.type).corners);
-  std::array<Eigen::Vector3d, 4> x, side;
+  std::array<Eigen::Vector3d, 4> x;
   for (size_t i = 0; i < n; ++i) x[i] = nodes.row(face.nodes[i]);
-  double longest = 0.0;
-  for (size_t i = 0; i < n; ++i) {
-    side[i] = x[(i + 1) % n] - x[i];
-    longest = std::max(longest, side[i].squaredNorm());
-  }
-  const bool triangle = n == 3;
-  const Eigen::Vector3d normal =
-      0.5 * (triangle ? side[0].cross(side[1]) : (x[2] - x[0]).cross(x[3] - x[1]));
-  const double area = normal.norm();
-  if (!(area > kLeastArea * longest)) return {"has no area, expected a face", 0.0};
-  if (triangle) return {};
-  for (size_t i = 0; i < n; ++i)
-    if (side[(i + 3) % n].cross(side[i]).dot(normal) < kLeastCorner * area * area)
-      return {"is concave or folded, expected four corners that go around", 0.0};
-  const double gap = std::abs((x[1] - x[0]).dot(normal)) / area;
-  return {"", gap / std::sqrt(area)};
+  const ShellShape shape = shape_of_shell(std::span(x).first(n));
+  if (!(shape.area > kLeastArea)) return {"has no area, expected a face", 0.0};
+  if (n == 4 && shape.corner < kLeastCorner)
+    return {"is concave or folded, expected four corners that go around", 0.0};
+  return {"", shape.warp};
 }
 
 }  // namespace clatter::mesh::deck

@@ -32,12 +32,12 @@ Eigen::Vector3d shell_centre(std::span<const Eigen::Vector3d, 8> nodes);
 /// corners.
 std::vector<ShellFace> linear_parts(const ShellFace& face);
 
-struct ShellShape {
+struct FlatShape {
   std::string defect;  // "has no area"; empty: none
-  double warp = 0.0;   // distance between both diagonals over the root of the area
+  double warp = 0.0;   // of shape_of_shell()
 };
 
 /// Of a linear face.
-ShellShape shape_of(const ShellFace& face, const RowMatrix& nodes);
+FlatShape shape_of(const ShellFace& face, const RowMatrix& nodes);
 
 }  // namespace clatter::mesh::deck

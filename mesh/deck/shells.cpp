@@ -13,7 +13,7 @@
 namespace clatter::mesh::deck {
 namespace {
 
-// Of ShellShape: a flat shell is off the sheet by as much, and beyond the second one it is not one.
+// Of FlatShape: a flat shell is off the sheet by as much, and beyond the second one it is not one.
 constexpr double kNotedWarp = 0.1, kMostWarp = 0.5;
 
 /// The cells of one region and type.
@@ -66,7 +66,7 @@ class ShellAdder {
   int32_t label(NodeIndex node) const { return deck_.mesh.node_ids[static_cast<size_t>(node)]; }
 
   void check(size_t i, const ShellCell& cell, const ShellFace& part) {
-    ShellShape shape = shape_of(part, deck_.mesh.nodes);
+    FlatShape shape = shape_of(part, deck_.mesh.nodes);
     if (shape.warp > kMostWarp)
       shape.defect = fmt::format(
           "is warped by {:.2g} of its size, expected at most {}: two triangles follow such a sheet",

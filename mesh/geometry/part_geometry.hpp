@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The geometry of a part as built or imported: solids by region, surfaces by position.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,13 +26,27 @@ struct CadSolid {
   double slack = 0.0;         // change of the volume that joining near faces explains
 };
 
+enum class SheetCells { kQuadrilaterals, kTriangles };
+
+/// Faces that are meshed as shells; nothing else is left in the session.
+struct SheetFaces {
+  std::string region;
+  double thickness = 0.0, offset = 0.0;  // offset: from the faces to the middle, outward
+  SheetCells cells = SheetCells::kQuadrilaterals;
+  std::vector<int> faces;                        // tags, ascending
+  std::vector<Eigen::Vector3d> points, outward;  // that tell the outward side; empty: the one of
+                                                 // most faces
+};
+
 struct PartGeometry {
-  std::vector<RegionSolids> regions;
-  std::vector<NamedSurface> surfaces;
+  std::vector<RegionSolids> regions = {};
+  std::vector<NamedSurface> surfaces = {};
   std::vector<CadSolid> cad_solids = {};  // of a file with several; empty elsewhere
   double volume_tolerance =
       1e-6;  // of a CAD solid against its mesh, in addition to the chord error; relative
-  std::string unit = "mm";  // of its lengths, for messages
+  std::string unit = "mm";               // of its lengths, for messages
+  std::optional<SheetFaces> sheet = {};  // instead of regions
+  std::vector<NamedSurface> edges = {};  // of a sheet: node sets on the edges of its faces
 };
 
 /// The only solid of a list; NumericsError for more: a boolean of connected shapes has failed.

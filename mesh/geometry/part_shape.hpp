@@ -6,9 +6,11 @@
 
 #include "mesh/geometry/block_geometry.hpp"
 #include "mesh/geometry/cad_geometry.hpp"
+#include "mesh/geometry/pan_geometry.hpp"
 #include "mesh/geometry/piston_geometry.hpp"
 #include "mesh/geometry/primitive_geometry.hpp"
 #include "mesh/geometry/rod_geometry.hpp"
+#include "mesh/geometry/sheet_geometry.hpp"
 
 namespace clatter::mesh {
 
@@ -28,8 +30,10 @@ struct PartShape {
   BoxParameters box;
   CylinderParameters cylinder;
   CadParameters cad;
-  std::map<std::string, SurfaceTable> surface_tables;
-  std::vector<NamedSurface> surfaces;  // which they are
+  SheetParameters sheet;
+  PanParameters pan;
+  std::map<std::string, SurfaceTable> surface_tables, edge_tables;
+  std::vector<NamedSurface> surfaces, edges;  // which they are
 };
 const keys::Keys<PartShape>& shape_keys();
 

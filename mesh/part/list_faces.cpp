@@ -98,7 +98,7 @@ ListedFaces list_faces(const PartFile& file, const std::string& where, bool tria
   if (!triangles) return result;
   try {
     result.drawn = triangles_of(session, result.list);
-    orient_faces(result.list, result.drawn);
+    if (!part.sheet) orient_faces(result.list, result.drawn);  // a sheet encloses nothing
   } catch (const NumericsError& failed) {
     warn(fmt::format("{}: the faces cannot be drawn, and their outer side is unknown: {}", where,
                      failed.what()));

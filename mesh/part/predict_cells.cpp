@@ -111,19 +111,29 @@ double predict_cells(const std::vector<FaceSizes>& faces, double volume, double 
   return std::max(kPerPair * triangles, inside);
 }
 
-double require_few_cells(GmshSession& session, double volume, const SizeSettings& sizes,
-                         const MeshSettings& settings, double metres_per_unit,
-                         const std::string& where) {
-  std::vector<FaceSizes> wanted;
+namespace {
+
+/// Sizes on all faces, and the box around them.
+struct Wanted {
+  std::vector<FaceSizes> faces;
   BoxFilter box{Eigen::Vector3d::Constant(1e300), Eigen::Vector3d::Constant(-1e300)};
-  for (const FaceFacts& face : session.faces_of_solids()) {
-    wanted.push_back(sizes_on(session, face, sizes));
+};
+
+Wanted wanted_of(GmshSession& session, const std::vector<FaceFacts>& faces,
+                 const SizeSettings& sizes) {
+  Wanted wanted;
+  for (const FaceFacts& face : faces) {
+    wanted.faces.push_back(sizes_on(session, face, sizes));
     for (const Eigen::Vector3d& x : face.edge_points) {
-      box.min = box.min.cwiseMin(x);
-      box.max = box.max.cwiseMax(x);
+      wanted.box.min = wanted.box.min.cwiseMin(x);
+      wanted.box.max = wanted.box.max.cwiseMax(x);
     }
   }
-  const double cells = predict_cells(wanted, volume, sizes.size);
+  return wanted;
+}
+
+double require_few(double cells, const BoxFilter& box, const MeshSettings& settings,
+                   double metres_per_unit, const std::string& where) {
   const Eigen::Vector3d mm = 1e3 * metres_per_unit * (box.max - box.min);
   say(fmt::format("mesh: about {:.2g} cells expected", cells));
   if (cells <= settings.max_cells) return cells;
@@ -136,6 +146,25 @@ double require_few_cells(GmshSession& session, double volume, const SizeSettings
       "part's unit is right, or choose larger elements, set min_size_mm, or raise mesh.max_cells",
       where, 1e3 * settings.element_size, turns, mm.x(), mm.y(), mm.z(), cells,
       settings.max_cells));
+}
+
+}  // namespace
+
+double require_few_cells(GmshSession& session, double volume, const SizeSettings& sizes,
+                         const MeshSettings& settings, double metres_per_unit,
+                         const std::string& where) {
+  const Wanted wanted = wanted_of(session, session.faces_of_solids(), sizes);
+  return require_few(predict_cells(wanted.faces, volume, sizes.size), wanted.box, settings,
+                     metres_per_unit, where);
+}
+
+double require_few_shells(GmshSession& session, const SizeSettings& sizes, bool triangles,
+                          const MeshSettings& settings, double metres_per_unit,
+                          const std::string& where) {
+  const Wanted wanted = wanted_of(session, session.boundary_faces(), sizes);
+  double cells = 0.0;
+  for (const FaceSizes& face : wanted.faces) cells += (triangles ? 1.0 : 0.5) * triangles_of(face);
+  return require_few(cells, wanted.box, settings, metres_per_unit, where);
 }
 
 }  // namespace clatter::mesh

@@ -40,4 +40,9 @@ double require_few_cells(GmshSession& session, double volume, const SizeSettings
                          const MeshSettings& settings, double metres_per_unit,
                          const std::string& where);
 
+/// The same for shells on all faces: T, half as many where they are quadrilaterals.
+double require_few_shells(GmshSession& session, const SizeSettings& sizes, bool triangles,
+                          const MeshSettings& settings, double metres_per_unit,
+                          const std::string& where);
+
 }  // namespace clatter::mesh

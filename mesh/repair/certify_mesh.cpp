@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/mesh/boundary.hpp"
+#include "mesh/repair/shell_quality.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -25,7 +26,10 @@ MeshCertificate certify_mesh(const Mesh& mesh, const QualityReport& quality) {
   // About a point of the part: far from the origin x . n dS is all rounding (hard case F2).
   const Eigen::Vector3d about = mesh.nodes.row(0).transpose();
   out.skin_area_m2 = integrate(mesh, mesh.surface("skin"), about).area;
-  if (!mesh.shells.empty()) out.shell_area_m2 = integrate(mesh, shell_surface(mesh)).area;
+  if (!mesh.shells.empty()) {
+    out.shell_area_m2 = integrate(mesh, shell_surface(mesh)).area;
+    note_shells(measure_shells(mesh), out);
+  }
   if (mesh.cells.empty()) return out;
   const Surface& skin = mesh.shells.empty() ? mesh.surface("skin") : skin_of(boundary_faces(mesh));
   const SurfaceIntegrals closed = integrate(mesh, skin, about);

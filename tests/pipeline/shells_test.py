@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Decks of shells through the stages: a free plate and a pan of sheet steel, against plate theory and solid elements."""
+"""Shells through the stages: a free plate and a pan of sheet steel, against plate theory and solid elements."""
 import pathlib
 import shutil
 import subprocess
@@ -46,8 +46,11 @@ class Shells(unittest.TestCase):
 
     def frequencies(self, deck, count):
         name = pathlib.Path(deck).stem
-        self.run_stages(("mesh", deck, "--units", "mm-t-s", "-o", f"{name}.mesh.h5", "--recipe", f"{name}.fe.toml"),
-                        ("assembly", f"{name}.mesh.h5", "-c", f"{name}.fe.toml", "-o", f"{name}.fe.h5"),
+        self.run_stages(("mesh", deck, "--units", "mm-t-s", "-o", f"{name}.mesh.h5", "--recipe", f"{name}.fe.toml"))
+        return self.modes_of(name, count)
+
+    def modes_of(self, name, count):
+        self.run_stages(("assembly", f"{name}.mesh.h5", "-c", f"{name}.fe.toml", "-o", f"{name}.fe.h5"),
                         ("modal", f"{name}.fe.h5", "--count", str(count), "-o", f"{name}.modes.h5"))
         with h5py.File(self.folder / f"{name}.modes.h5") as file:
             return file["frequency_hz"][()]
@@ -73,6 +76,22 @@ class Shells(unittest.TestCase):
     @unittest.skipUnless(PAN.exists(), "the reference's pan is not here")
     def test_a_pan_agrees_with_quadratic_solids(self):
         np.testing.assert_allclose(self.pan() / SOLIDS, 1.0, atol=8e-3)
+
+    def test_a_pan_of_cad_agrees_with_quadratic_solids(self):
+        (self.folder / "cad.mesh.toml").write_text('name = "pan"\nkind = "pan"\n[pan]\nthickness = 1.5\n[mesh]\n'
+                                                   "element_size_mm = 10\nelements_per_turn = 16\nmin_size_mm = 3.3\n")
+        (self.folder / "cad.fe.toml").write_text('[material.steel]\nregions = ["pan"]\nE_gpa = 210\nnu = 0.3\nrho = 7850\n')
+        self.run_stages(("mesh", "cad.mesh.toml", "-o", "cad.mesh.h5", "--write-step", "pan.step"))
+        hz = self.modes_of("cad", 18)
+        np.testing.assert_allclose(hz[hz > 1.0][:12] / SOLIDS, 1.0, atol=1e-2)
+        # The geometry that was written, as a stranger's file of faces.
+        (self.folder / "faces.mesh.toml").write_text('name = "pan"\nkind = "sheet"\n[sheet]\nsource = "pan.step"\n'
+                                                     'region = "pan"\nthickness = 1.5\n[mesh]\nelement_size_mm = 10\n'
+                                                     "elements_per_turn = 16\nmin_size_mm = 3.3\n")
+        shutil.copy(self.folder / "cad.fe.toml", self.folder / "faces.fe.toml")
+        self.run_stages(("mesh", "faces.mesh.toml", "-o", "faces.mesh.h5"))
+        faces = self.modes_of("faces", 10)
+        np.testing.assert_allclose(faces[6:10] / hz[6:10], 1.0, atol=2e-3)
 
     @unittest.skipUnless(PAN.exists(), "the reference's pan is not here")
     def test_a_pan_tied_to_a_frame_has_the_arm_of_half_its_thickness(self):

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The row of the cells of a sheet.
+#include "core/keys/keys.hpp"
+#include "mesh/geometry/part_geometry.hpp"
+
+namespace clatter::mesh {
+
+template <class Rows>
+keys::Row cells_of_sheet(Rows& key, SheetCells& at) {
+  return key.choice(
+      "cells", at,
+      {{"quadrilaterals", SheetCells::kQuadrilaterals}, {"triangles", SheetCells::kTriangles}},
+      "quadrilaterals, with triangles where they must be; or triangles, which are "
+      "stiffer in their plane");
+}
+
+}  // namespace clatter::mesh

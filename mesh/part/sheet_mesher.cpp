@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/part/sheet_mesher.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "core/base/child_process.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/mesh/boundary.hpp"
+#include "core/mesh/orient_shells.hpp"
+#include "core/mesh/shell_shape.hpp"
+#include "mesh/part/mesh_sizes.hpp"
+#include "mesh/part/predict_cells.hpp"
+#include "mesh/repair/certify_mesh.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+// Of ShellShape: a quadrilateral beyond them becomes two triangles.
+constexpr double kMostWarp = 0.25, kLeastJacobian = 0.15;
+
+/// Cells of one type, and the CAD face of each.
+struct SheetRows {
+  std::vector<int32_t> nodes;
+  std::vector<int> faces;
+};
+
+std::array<Eigen::Vector3d, 4> corners_of(const RowMatrix& nodes, const int32_t* quad) {
+  std::array<Eigen::Vector3d, 4> x;
+  for (size_t i = 0; i < 4; ++i) x[i] = nodes.row(quad[i]);
+  return x;
+}
+
+/// Along the shorter diagonal.
+void split(const std::array<Eigen::Vector3d, 4>& x, const int32_t* quad, int face,
+           SheetRows& triangles) {
+  const bool by_02 = (x[2] - x[0]).norm() <= (x[3] - x[1]).norm();
+  const std::array<int, 6> order =
+      by_02 ? std::array{0, 1, 2, 0, 2, 3} : std::array{0, 1, 3, 1, 2, 3};
+  for (const int i : order) triangles.nodes.push_back(quad[i]);
+  triangles.faces.insert(triangles.faces.end(), 2, face);
+}
+
+ShellBlock block_of(FaceType type, const SheetRows& rows, const SheetFaces& sheet, double metres) {
+  ShellBlock block;
+  block.type = type;
+  const auto cells = static_cast<Eigen::Index>(rows.faces.size());
+  const Eigen::Index columns = traits(type).nodes;
+  block.nodes = Eigen::Map<const IndexMatrix>(rows.nodes.data(), cells, columns);
+  block.thickness = RowMatrix::Constant(cells, columns, metres * sheet.thickness);
+  if (sheet.offset != 0.0) block.offset = Eigen::VectorXd::Constant(cells, metres * sheet.offset);
+  return block;
+}
+
+/// The cells of a sheet, with the face of each by block.
+struct SheetCellsOfFaces {
+  std::vector<ShellBlock> blocks;
+  std::vector<std::vector<int>> faces;
+};
+
+SheetCellsOfFaces cells_of(const RawSheet& raw, const SheetFaces& sheet, double metres) {
+  SheetRows quads, triangles;
+  for (const auto& [face, cells] : raw.faces) {
+    triangles.nodes.insert(triangles.nodes.end(), cells.tri3.data(),
+                           cells.tri3.data() + cells.tri3.size());
+    triangles.faces.insert(triangles.faces.end(), static_cast<size_t>(cells.tri3.rows()), face);
+    for (Eigen::Index c = 0; c < cells.quad4.rows(); ++c) {
+      const int32_t* quad = cells.quad4.data() + 4 * c;
+      const auto x = corners_of(raw.nodes, quad);
+      const ShellShape shape = shape_of_shell(x);
+      if (shape.warp > kMostWarp || shape.jacobian < kLeastJacobian) {
+        split(x, quad, face, triangles);
+        continue;
+      }
+      quads.nodes.insert(quads.nodes.end(), quad, quad + 4);
+      quads.faces.push_back(face);
+    }
+  }
+  SheetCellsOfFaces out;
+  for (auto& [type, rows] :
+       {std::pair(FaceType::kQuad4, &quads), std::pair(FaceType::kTri3, &triangles)}) {
+    if (rows->faces.empty()) continue;
+    out.blocks.push_back(block_of(type, *rows, sheet, metres));
+    out.faces.push_back(rows->faces);
+  }
+  if (out.blocks.empty()) throw NumericsError("gmsh: the sheet got no cells");
+  return out;
+}
+
+/// 1 where most of the points that tell it say that the cells' side is outward, else -1.
+int side_of(const Mesh& mesh, const SheetFaces& sheet, double metres) {
+  Eigen::Index count = 0;
+  for (const ShellBlock& block : mesh.shells) count += block.nodes.rows();
+  RowMatrix centres(count, 3), normals(count, 3);
+  count = 0;
+  for (const ShellBlock& block : mesh.shells)
+    for (const auto& cell : block.nodes.rowwise()) {
+      const Eigen::Index n = cell.size();
+      centres.row(count).setZero();
+      for (const int32_t node : cell) centres.row(count) += mesh.nodes.row(node) / n;
+      const Eigen::Vector3d a = mesh.nodes.row(cell(1)) - mesh.nodes.row(cell(0)),
+                            b = mesh.nodes.row(cell(n - 1)) - mesh.nodes.row(cell(0));
+      normals.row(count++) = a.cross(b).normalized();
+    }
+  int votes = 0;
+  for (size_t i = 0; i < sheet.points.size(); ++i) {
+    Eigen::Index nearest = 0;
+    (centres.rowwise() - metres * sheet.points[i].transpose())
+        .rowwise()
+        .squaredNorm()
+        .minCoeff(&nearest);
+    votes += normals.row(nearest).dot(sheet.outward[i]) > 0.0 ? 1 : -1;
+  }
+  return votes < 0 ? -1 : 1;
+}
+
+void turn_over(Mesh& mesh) {
+  for (ShellBlock& block : mesh.shells)
+    block.nodes.col(1).swap(block.nodes.col(block.nodes.cols() - 1));
+}
+
+std::vector<int32_t> sorted(std::set<int32_t> nodes) { return {nodes.begin(), nodes.end()}; }
+
+std::vector<int32_t> free_edges_of(const Mesh& mesh) {
+  std::map<std::pair<int32_t, int32_t>, int> cells;
+  for (const ShellBlock& block : mesh.shells)
+    for (const auto& cell : block.nodes.rowwise())
+      for (Eigen::Index i = 0; i < cell.size(); ++i)
+        ++cells[std::minmax(cell(i), cell((i + 1) % cell.size()))];
+  std::set<int32_t> nodes;
+  for (const auto& [edge, count] : cells)
+    if (count == 1) nodes.insert({edge.first, edge.second});
+  return sorted(std::move(nodes));
+}
+
+void name_surfaces(const FaceTags& tags, const std::vector<std::vector<int>>& faces, Mesh& mesh) {
+  mesh.surfaces["skin"] = shell_surface(mesh);
+  for (const auto& [name, selected] : tags) {
+    SurfaceBuilder surface;
+    for (size_t b = 0; b < mesh.shells.size(); ++b)
+      for (Eigen::Index c = 0; c < mesh.shells[b].nodes.rows(); ++c)
+        if (std::ranges::find(selected, faces[b][static_cast<size_t>(c)]) != selected.end()) {
+          const Eigen::VectorXi cell = mesh.shells[b].nodes.row(c).transpose();
+          surface.add(mesh.shells[b].type,
+                      std::span(cell.data(), static_cast<size_t>(cell.size())));
+        }
+    mesh.surfaces[name] = surface.finish();
+    mesh.node_sets[name] = nodes_of(mesh.surfaces[name]);
+  }
+}
+
+void name_edges(GmshSession& session, const PartGeometry& part, const RawSheet& raw,
+                const std::string& where, Mesh& mesh) {
+  mesh.node_sets["free_edges"] = free_edges_of(mesh);
+  const FaceTags tags = find_surfaces(session.edges(), part.edges, part.unit, where);
+  for (const auto& [name, curves] : tags) {
+    if (mesh.node_sets.contains(name))
+      throw InputError(
+          fmt::format("{}: edge.{}: found a surface or a set of this name, expected "
+                      "another one",
+                      where, name));
+    std::set<int32_t> nodes;
+    for (const int curve : curves) {
+      const IndexMatrix& lines = raw.edges.at(curve);
+      nodes.insert(lines.data(), lines.data() + lines.size());
+    }
+    mesh.node_sets[name] = sorted(std::move(nodes));
+  }
+}
+
+double area_of(const std::vector<FaceFacts>& faces) {
+  double area = 0.0;
+  for (const FaceFacts& face : faces) area += face.area;
+  return area;
+}
+
+}  // namespace
+
+PartMesh mesh_sheet(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
+                    double metres, const std::string& name, const std::string& where) {
+  const SheetFaces& sheet = *part.sheet;
+  const std::vector<FaceFacts> faces = session.boundary_faces();
+  const FaceTags tags = find_surfaces(faces, part.surfaces, part.unit, where);
+  const SizeSettings sizes = size_settings(session, settings, faces, tags, metres, where);
+  const bool triangles = sheet.cells == SheetCells::kTriangles;
+  const double predicted = require_few_shells(session, sizes, triangles, settings, metres, where);
+  PartMesh result;
+  const RawSheet raw = session.generate_sheet(sizes, triangles);
+  enter_step("proving the mesh");
+  Mesh& mesh = result.mesh;
+  mesh.name = name;
+  mesh.nodes = metres * raw.nodes;
+  mesh.regions = {sheet.region};
+  SheetCellsOfFaces cells = cells_of(raw, sheet, metres);
+  mesh.shells = std::move(cells.blocks);
+  orient_shells(mesh.shells);
+  for (ShellBlock& block : mesh.shells)
+    if (block.offset.size() > 0) block.offset.setConstant(metres * sheet.offset);
+  if (side_of(mesh, sheet, metres) < 0) turn_over(mesh);
+  name_surfaces(tags, cells.faces, mesh);
+  name_edges(session, part, raw, where, mesh);
+  check_structure(mesh, "mesh");
+  result.certificate = certify_mesh(mesh, result.quality);
+  result.certificate.predicted_cells = predicted;
+  result.certificate.shell_area_against_cad =
+      *result.certificate.shell_area_m2 / (metres * metres * area_of(faces)) - 1.0;
+  return result;
+}
+
+}  // namespace clatter::mesh
