@@ -4,10 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
-#include "assembly/coupling/coupling.hpp"
-#include "assembly/coupling/member_group.hpp"
+#include "assembly/constraint/edge_tie.hpp"
+#include "assembly/constraint/tie_rows.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 
@@ -17,38 +16,12 @@ namespace {
 constexpr double kDefaultGap = 0.1;  // of the mean slave face size
 constexpr double kNoArm = 1e-10;     // of the mean slave face size: rounding
 constexpr int32_t kNoBolt = -1;
-constexpr double kNoMotion = 1e-14;  // entries of the rotation's rows that are rounding
 
-/// The part of a slave node's motion due to its distance from the combined masters,
-/// arm = x_j - sum P_jk x_k: the masters' common rotation times the arm. So rigid motions are
-/// followed exactly across gaps and on curved faces.
-std::array<Functional, 3> rotation_rows(const ProjectedNode& row, const Eigen::Vector3d& arm,
-                                        const RowMatrix& nodes, const std::string& where) {
-  std::vector<Member> members;
-  for (const auto& [node, value] : row.on)
-    members.push_back({{3 * node, 3 * node + 1, 3 * node + 2, -1, -1, -1},
-                       nodes.row(node).transpose(),
-                       std::abs(value)});
-  const Coupling turn = distribute(members, Eigen::Vector3d::Zero(), {3, 4, 5}, where);
+/// The part of the motion of a node of a shell due to its distance: its face, at the masters, turns
+/// with its own rotations, of which `first` is the first.
+PointMotion own_rotation_rows(int32_t first, const Eigen::Vector3d& arm) {
   const Eigen::Matrix3d lever = rigid_motion(arm).rightCols<3>();  // theta x arm
-  const std::vector<Functional> theta = turn.nodal_rows();
-  std::array<Functional, 3> rows;
-  for (int d = 0; d < 3; ++d)
-    for (int r = 0; r < 3; ++r)
-      for (size_t k = 0; k < theta[r].dofs.size(); ++k) {
-        const double value = lever(d, r) * theta[r].values[k];
-        if (std::abs(value) <= kNoMotion) continue;
-        rows[d].dofs.push_back(theta[r].dofs[k]);
-        rows[d].values.push_back(value);
-      }
-  return rows;
-}
-
-/// The same of a node of a shell: its face, at the masters, turns with its own rotations, of which
-/// `first` is the first.
-std::array<Functional, 3> own_rotation_rows(int32_t first, const Eigen::Vector3d& arm) {
-  const Eigen::Matrix3d lever = rigid_motion(arm).rightCols<3>();  // theta x arm
-  std::array<Functional, 3> rows;
+  PointMotion rows;
   for (int d = 0; d < 3; ++d)
     for (int r = 0; r < 3; ++r) {
       if (std::abs(lever(d, r)) <= kNoArm * arm.norm()) continue;  // rounding
@@ -110,13 +83,13 @@ std::vector<Dependence> tie(const PartData& part, const TieSpec& given, int32_t 
   std::vector<Dependence> dependences;
   int held = 0;
   for (const ProjectedNode& row : found.tied) {
-    Eigen::Vector3d arm = mesh.nodes.row(row.node).transpose();
-    for (const auto& [node, value] : row.on) arm -= value * mesh.nodes.row(node).transpose();
-    std::array<Functional, 3> rows;
+    const Eigen::Vector3d arm = arm_of(row, mesh.nodes.row(row.node).transpose(), mesh.nodes);
+    PointMotion rows;
     const int32_t own = part.numbers.rotation_of(row.node);
     if (arm.norm() > kNoArm * size)
       rows =
           own < 0 ? rotation_rows(row, arm, mesh.nodes, spec.where) : own_rotation_rows(own, arm);
+    add_masters(row, rows);
     for (int d = 0; d < 3; ++d) {
       const int32_t dof = 3 * row.node + d;
       if (graph.is_held(dof)) {
@@ -124,10 +97,6 @@ std::vector<Dependence> tie(const PartData& part, const TieSpec& given, int32_t 
         continue;
       }
       Functional& on = rows[d];
-      for (const auto& [node, value] : row.on) {
-        on.dofs.push_back(3 * node + d);
-        on.values.push_back(value);
-      }
       if (shortening != kNoBolt && spec.direction(d) != 0.0) {
         on.dofs.push_back(shortening);
         on.values.push_back(row.jump * spec.direction(d));
@@ -167,7 +136,8 @@ TieRelations gather_ties(const PartData& part, int32_t first_id, ConstraintGraph
   for (const TieSpec& spec : part.recipe.ties) {
     const int32_t shortening =
         spec.bolt ? first_id + static_cast<int32_t>(ties.bolts.size()) : kNoBolt;
-    for (Dependence& one : tie(part, spec, shortening, graph))
+    for (Dependence& one :
+         spec.edge.empty() ? tie(part, spec, shortening, graph) : tie_edge(part, spec, graph))
       ties.dependences.push_back(std::move(one));
     if (spec.bolt)
       ties.bolts[spec.name] = bolt_set(spec, shortening, part.surfaces.at(spec.slave).centroid);

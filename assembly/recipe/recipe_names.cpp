@@ -27,10 +27,11 @@ void RecipeNames::check_surface(const keys::Source& table, const std::string& na
     table.fail(key, fmt::format("found \"{}\" without faces, expected some", name));
 }
 
-void RecipeNames::check_node_set(const keys::Source& table, const std::string& name) const {
-  check_known(table, "node_set", name, names_of(mesh.node_sets));
+void RecipeNames::check_node_set(const keys::Source& table, const std::string& name,
+                                 const char* key) const {
+  check_known(table, key, name, names_of(mesh.node_sets));
   if (mesh.node_sets.at(name).empty())
-    table.fail("node_set", fmt::format("found \"{}\" without nodes, expected some", name));
+    table.fail(key, fmt::format("found \"{}\" without nodes, expected some", name));
 }
 
 void RecipeNames::check(const keys::Source& table, const recipe::Selection& selection) const {

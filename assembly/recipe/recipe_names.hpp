@@ -23,7 +23,8 @@ struct RecipeNames {
   /// The surface or node set exists and is not empty.
   void check_surface(const keys::Source& table, const std::string& name,
                      std::string_view key = "surface") const;
-  void check_node_set(const keys::Source& table, const std::string& name) const;
+  void check_node_set(const keys::Source& table, const std::string& name,
+                      const char* key = "node_set") const;
   /// The selection with its position for messages; its surface, node set or point exists.
   Selection selection(const keys::Source& table, const std::string& what,
                       const recipe::Selection& given) const;

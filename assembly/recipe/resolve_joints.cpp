@@ -166,7 +166,10 @@ TieSpec Resolver::tied(const recipe::Tie& tie, const std::string& name, bool bol
   TieSpec spec{tie, bolt, where(tie.source, fmt::format("{} {}", bolt ? "bolt" : "tie", name))};
   spec.name = name;
   names_.ties.insert(name);
-  names_.check_surface(tie.source, tie.slave, "slave");
+  if (tie.edge.empty())
+    names_.check_surface(tie.source, tie.slave, "slave");
+  else
+    names_.check_node_set(tie.source, tie.edge, "edge");
   names_.check_surface(tie.source, tie.master, "master");
   if (tie.slave == tie.master)
     tie.source.fail("master", "found the slave surface, expected another one");

@@ -154,14 +154,16 @@ const Keys<Term>& term_keys() {
   return keys;
 }
 
-/// The rows that a tie and a bolt have.
+/// The rows that a tie and a bolt have. @return that of the slave.
 template <class Rows>
-void surface_rows(Rows& key, Tie& tie) {
-  key.text("slave", tie.slave, "a surface of the mesh, which follows").required();
+keys::Row surface_rows(Rows& key, Tie& tie) {
+  const keys::Row slave = key.text("slave", tie.slave, "a surface of the mesh, which follows");
   key.text("master", tie.master, "a surface of the mesh").required();
   key.number("distance", tie.distance, Range::not_negative(),
-             "largest gap; a tenth of the mean slave face's size without it")
+             "largest gap; a tenth of the mean slave face's size, or half the thickness of the "
+             "sheet whose edge it is, without it")
       .in_length_unit();
+  return slave;
 }
 
 }  // namespace
@@ -220,13 +222,17 @@ const Keys<StraightEdges>& straight_edges_keys() {
 }
 
 const Keys<Tie>& tie_keys() {
-  static const Keys<Tie> keys("tie",
-                              "a slave surface that follows a master surface, with other nodes",
-                              [](auto& key, Tie& tie) {
-                                key.source(tie.source);
-                                key.text("name", tie.name, "name for messages and heat");
-                                surface_rows(key, tie);
-                              });
+  static const Keys<Tie> keys(
+      "tie", "a slave surface, or the edge of a sheet, that follows a master surface",
+      [](auto& key, Tie& tie) {
+        key.source(tie.source);
+        key.text("name", tie.name, "name for messages and heat");
+        surface_rows(key, tie);
+        key.text("edge", tie.edge,
+                 "in place of slave: a node set with the edge of a sheet "
+                 "that stands on the master");
+        key.one_of({"slave", "edge"});
+      });
   return keys;
 }
 
@@ -236,7 +242,7 @@ const Keys<Tie>& bolt_keys() {
       [](auto& key, Tie& bolt) {
         key.source(bolt.source);
         key.text("name", bolt.name, "name of its set").required();
-        surface_rows(key, bolt);
+        surface_rows(key, bolt).required();
         key.direction("direction", bolt.direction, "direction from slave to master").required();
       });
   return keys;

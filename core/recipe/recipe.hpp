@@ -172,12 +172,15 @@ struct StraightEdges {
   std::string node_set;
 };
 
-/// [[tie]] and [[bolt]]: a slave surface that follows a master surface.
+/// [[tie]] and [[bolt]]: a slave surface that follows a master surface; or of a tie the edge of a
+/// sheet.
 struct Tie {
   Source source;
   std::string name, slave, master;
-  std::optional<double> distance;  // largest gap [m]; absent: a tenth of the mean slave face size
+  std::optional<double> distance;  // largest gap [m]; absent: a tenth of the mean slave face
+                                   // size, or half the sheet's thickness
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // of a bolt: from slave to master
+  std::string edge = {};                                 // instead of slave: a node set
 };
 
 /// [[contact]]: a grid of patches on a cylinder surface.

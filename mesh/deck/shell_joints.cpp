@@ -68,8 +68,8 @@ void refuse_hinges(const Deck& deck, const std::vector<ShellHinge>& hinges, Refu
   if (first == nullptr) return;
   refusals.add(fmt::format(
       "{}: found {} on nodes of solids, which do not turn: a hinge{}; nodes of its own for the "
-      "shell, which a rigid or distributing coupling (RBE2, RBE3, *COUPLING) or a tie joins to the "
-      "solid, clamp it",
+      "shell, which a [[tie]] of its edge or a rigid or distributing coupling (RBE2, RBE3, "
+      "*COUPLING) joins to the solid, clamp it",
       first->where, first->what,
       count == 1 ? "" : fmt::format(" ({} shells have such nodes)", count)));
 }

@@ -126,7 +126,7 @@ TEST_P(WarmSheet, FreeOnDistortedCellsItGrowsEvenly) {
       exact.segment<3>(6 * i) = kWarm * s.nodes.row(i).transpose();
     const Eigen::VectorXd u =
         solve(assemble(s, plate).K, forces_of(s, plate, warm), held_as_a_body(s), exact);
-    EXPECT_LE((u - exact).cwiseAbs().maxCoeff(), 1e-10 * kWarm);  // rounding, (L/t)^2 of it
+    EXPECT_LE((u - exact).cwiseAbs().maxCoeff(), 1e-9 * kWarm);  // rounding, (L/t)^2 of it
     EXPECT_LE(largest_strain(s, plate, u, warm), 1e-10 * kWarm);
   }
 }

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Edges of sheets on faces of solids.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "block_mesh.hpp"
+#include "core/base/log.hpp"
+#include "core/mesh/boundary.hpp"
+#include "small_solver.hpp"
+#include "tests/refusal.hpp"
+
+namespace clatter::assembly::testing {
+namespace {
+
+constexpr double kTop = 0.02;  // of the block [m]
+
+/// A block of 100 x 60 x 20 mm and walls, 40 mm high, on the lines between the points of a plan; a
+/// plan that ends where it begins is a closed box. Node sets: foot, the lower nodes, and head.
+mesh::Mesh walls_on_block(const std::vector<Eigen::Vector2d>& plan, int along, int up,
+                          double lift = 0.0) {
+  mesh::Mesh mesh = block_mesh({8, 5, 2}, brick({0.1, 0.06, kTop}), {mesh::CellType::kHex8});
+  const bool closed = (plan.front() - plan.back()).norm() == 0.0;
+  std::vector<Eigen::Vector2d> line;
+  for (size_t p = 0; p + 1 < plan.size(); ++p)
+    for (int i = 0; i < along; ++i) line.push_back(plan[p] + (plan[p + 1] - plan[p]) * i / along);
+  if (!closed) line.push_back(plan.back());
+  const auto columns = static_cast<int32_t>(line.size()),
+             first = static_cast<int32_t>(mesh.nodes.rows());
+  mesh.nodes.conservativeResize(first + columns * (up + 1), Eigen::NoChange);
+  for (int32_t j = 0; j <= up; ++j)
+    for (int32_t i = 0; i < columns; ++i) {
+      const int32_t node = first + j * columns + i;
+      mesh.nodes.row(node) << line[static_cast<size_t>(i)].transpose(), kTop + lift + 0.04 * j / up;
+      if (j == 0) mesh.node_sets["foot"].push_back(node);
+      if (j == up) mesh.node_sets["head"].push_back(node);
+    }
+  const int32_t cells = closed ? columns : columns - 1;
+  mesh::ShellBlock block;
+  block.region = static_cast<int32_t>(mesh.regions.size());
+  mesh.regions.push_back("wall");
+  block.nodes.resize(cells * up, 4);
+  for (int32_t j = 0; j < up; ++j)
+    for (int32_t i = 0; i < cells; ++i) {
+      const int32_t a = first + j * columns + i, b = first + j * columns + (i + 1) % columns;
+      block.nodes.row(j * cells + i) << a, b, b + columns, a + columns;
+    }
+  mesh.shells = {block};
+  mesh.surfaces["skin"] = mesh::skin_of(mesh::boundary_faces(mesh), mesh.shells);
+  return mesh;
+}
+
+std::string wall(double offset = 0.0, const std::string& more = "") {
+  return fmt::format(
+      "[[shell]]\nregions = [\"wall\"]\nthickness = 0.002\noffset = {}\n[[tie]]\nname = \"weld\"\n"
+      "edge = \"foot\"\nmaster = \"z1\"\n{}",
+      offset, more);
+}
+
+void expect_one_body(const BuiltModel& built) {
+  EXPECT_LT(built.certificate.rigid_recovery_error.value(), 1e-11);
+  EXPECT_LT(built.certificate.rigid_force_residue.value(), 1e-10);
+  EXPECT_LT(built.certificate.mass_error.value(), 1e-9);
+  // Six motions without forces and no seventh, as a hinge would be; K scaled to a unit diagonal.
+  const Eigen::MatrixXd K = full(built.model.K);
+  const Eigen::VectorXd scale = K.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scale.asDiagonal() * K * scale.asDiagonal(),
+                                                     Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  EXPECT_LT(std::abs(values(5)), 1e-12);
+  EXPECT_GT(values(6), 1e-7);
+}
+
+TEST(EdgeTie, RigidMotionsCrossAWallAtAnAngle) {
+  for (const double offset : {0.0, 0.0008})
+    expect_one_body(build(walls_on_block({{0.011, 0.013}, {0.083, 0.041}}, 7, 4), wall(offset)));
+}
+
+TEST(EdgeTie, ABoxTurnsWithTheFaceAtItsCorners) {
+  const std::vector<Eigen::Vector2d> box = {
+      {0.02, 0.01}, {0.08, 0.01}, {0.08, 0.05}, {0.02, 0.05}, {0.02, 0.01}};
+  expect_one_body(build(walls_on_block(box, 5, 4), wall()));
+}
+
+TEST(EdgeTie, RigidMotionsCrossAGap) {
+  const mesh::Mesh mesh = walls_on_block({{0.011, 0.013}, {0.083, 0.041}}, 7, 4, 0.0005);
+  expect_one_body(build(mesh, wall()));
+  EXPECT_EQ(
+      test::refusal_of([&] { build(mesh, wall(0.0, "distance = 0.0004")); }),
+      "test.fe.toml:10: tie weld: found no part of the edge foot that stands on z1 within 0.0004 "
+      "m, expected some");
+}
+
+TEST(EdgeTie, OfNodesWithoutAFreeEdgeIsRefused) {
+  mesh::Mesh mesh = walls_on_block({{0.01, 0.03}, {0.09, 0.03}}, 4, 4);
+  for (int32_t& node : mesh.node_sets["foot"]) node += 5;  // the row above the foot
+  const std::string text = test::refusal_of([&] { build(mesh, wall()); });
+  EXPECT_NE(text.find("tie weld: found no free edge of a sheet between nodes of foot"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(test::refusal_of([&] { build(mesh, wall(0.0, "slave = \"z0\"\n")); }).find("slave"),
+            std::string::npos);
+}
+
+TEST(EdgeTie, WideCellsOfTheSolidAreSaid) {
+  std::vector<std::string> warnings;
+  set_log_sink([&](bool warning, const std::string& text) {
+    if (warning) warnings.push_back(text);
+  });
+  build(walls_on_block({{0.01, 0.03}, {0.09, 0.03}}, 8, 4), wall());
+  set_log_sink({});
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(
+      warnings[0].find("weld: the cells of z1 at the edge are 0.0122 m wide, of a sheet 0.002 "
+                       "m thick: beyond three thicknesses the foot is too stiff"),
+      std::string::npos)
+      << warnings[0];
+}
+
+}  // namespace
+}  // namespace clatter::assembly::testing
