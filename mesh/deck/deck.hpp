@@ -99,6 +99,7 @@ struct Tie {
   std::string name, where;
   std::string slave, master;  // surfaces of the mesh
   double distance = -1.0;     // largest tied gap; < 0: default of the assembler
+  std::string edge = {};      // instead of slave: node set with the edge of a sheet
 };
 
 /// A bolt, cut through: u_slave - u_master = d direction, d the displacement of `reference`.

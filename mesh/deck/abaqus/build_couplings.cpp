@@ -251,6 +251,44 @@ void read_tie(Model& model, size_t use, const Card& card) {
   model.deck.ties.push_back(std::move(tie));
 }
 
+/// The node set of a surface of edges, or of nodes, of shells.
+std::string edge_set(Model& model, size_t use, const Fields& fields, const std::string& tie) {
+  const std::string name = fields.word(0, "shell surface");
+  const std::vector<int32_t>* rows = node_surface(model, use, name);
+  if (rows == nullptr && model.refusals.has_lost(folded(name))) throw FollowUp();
+  if (rows == nullptr)
+    fields.fail(fmt::format("found no surface {} of edges of shells, expected one", shown(name)));
+  auto& sets = model.deck.mesh.node_sets;
+  std::string set = tie + "_edge";
+  for (int i = 2; sets.contains(set); ++i) set = fmt::format("{}_edge_{}", tie, i);
+  std::vector<int32_t>& nodes = sets[set];
+  for (const int32_t row : *rows) nodes.push_back(model.node_map.mesh_node(row));
+  sort_unique(nodes);
+  return set;
+}
+
+// The influence distance of Abaqus is the footprint, as wide as the sheet is thick.
+void read_shell_to_solid(Model& model, size_t use, const Card& card) {
+  const Keyword& keyword = card.keyword();
+  keyword.allow({"CONSTRAINTNAME", "INFLUENCEDISTANCE", "POSITIONTOLERANCE"}, model.source,
+                model.ignore);
+  if (card.size() != 1)
+    model.source.fail(card.origin(),
+                      fmt::format("*SHELL TO SOLID COUPLING: found {} data lines, expected one: "
+                                  "surface of the shell's edge, surface of the solid",
+                                  card.size()));
+  const Fields fields = card.line(0, model.source);
+  Tie tie;
+  const std::string* name = keyword.find("CONSTRAINTNAME");
+  tie.name = name != nullptr ? *name : fmt::format("tie_{}", model.deck.ties.size() + 1);
+  tie.where = model.source.where(card.origin());
+  tie.master = surface_named(model, use, fields.word(1, "solid surface"), fields.origin());
+  tie.edge = edge_set(model, use, fields, tie.name);
+  if (const std::string* tolerance = keyword.find("POSITIONTOLERANCE"))
+    tie.distance = Fields(*tolerance, model.source, card.origin()).number(0, "POSITION TOLERANCE");
+  model.deck.ties.push_back(std::move(tie));
+}
+
 }  // namespace
 
 DofMask dof_range(const Fields& fields, size_t i) {
@@ -297,6 +335,8 @@ void build_ties(Model& model) {
   for_each_card(model, {"TIE"}, [&](size_t use, const Card& card) {
     if (!card.keyword().has("CYCLICSYMMETRY")) read_tie(model, use, card);
   });
+  for_each_card(model, {"SHELLTOSOLIDCOUPLING"},
+                [&](size_t use, const Card& card) { read_shell_to_solid(model, use, card); });
 }
 
 void finish_couplings(Model& model) {

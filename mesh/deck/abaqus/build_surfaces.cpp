@@ -98,7 +98,18 @@ class SurfaceReader {
                                                     "NODE",
                                                     *keyword.find("TYPE")));
     }
+    edge_rows_.clear();
     const std::vector<CellFaceId> faces = faces_of(use, card);
+    if (!edge_rows_.empty()) {
+      if (!faces.empty())
+        model_.source.fail(card.origin(),
+                           fmt::format("surface {}: found faces and edges of shells, "
+                                       "expected one of them",
+                                       name));
+      sort_unique(edge_rows_);
+      model_.node_surfaces[key] = std::move(edge_rows_);
+      return;
+    }
     // Without faces because the user ignores its elements: not in the mesh.
     const bool none = faces.empty() && card.size() > 0;
     model_.surface_names[key] =
@@ -128,7 +139,23 @@ class SurfaceReader {
     const std::string side = folded(fields.text(1));
     if (side == "SNEG") return kSneg;
     if (side.empty() || side == "SPOS") return kSpos;
-    fields.fail(fmt::format("found face {} of shells, expected SPOS or SNEG", shown(side)));
+    fields.fail(
+        fmt::format("found face {} of shells, expected SPOS, SNEG or E1 to E4", shown(side)));
+  }
+
+  // "elements, E2": the nodes of the second side of shells. False for faces.
+  bool takes_edge(const Fields& fields, int32_t element) {
+    const std::string label = folded(fields.text(1));
+    if (label.size() != 2 || label[0] != 'E') return false;
+    const ThinElement& thin = *numbering_.thin(element);
+    const int32_t corners = traits(*thin.face).corners, edge = label[1] - '1';
+    if (edge < 0 || edge >= corners)
+      fields.fail(fmt::format("found edge {} of shell {} {}, expected E1 to E{}", label, thin.type,
+                              thin.id, corners));
+    edge_rows_.push_back(thin.nodes[edge]);
+    edge_rows_.push_back(thin.nodes[(edge + 1) % corners]);
+    if (thin.count > corners) edge_rows_.push_back(thin.nodes[corners + edge]);
+    return true;
   }
 
   // "elements, S3", or "elements": all their faces on the outside of the model. Elements of two
@@ -139,7 +166,8 @@ class SurfaceReader {
     const auto is_shell = [&](int32_t element) { return model_.is_shell(element); };
     const bool has_shells = std::ranges::any_of(cells, is_shell);
     for (const int32_t element : cells)
-      if (is_shell(element)) faces.emplace_back(element, side_of(fields));
+      if (is_shell(element) && !takes_edge(fields, element))
+        faces.emplace_back(element, side_of(fields));
     std::erase_if(cells, is_shell);
     if (has_shells && cells.empty()) return;
     std::vector<const ThinElement*> thin;
@@ -191,6 +219,7 @@ class SurfaceReader {
 
   Model& model_;
   const Numbering& numbering_;
+  std::vector<int32_t> edge_rows_;  // of the surface that is read
 };
 
 }  // namespace

@@ -81,6 +81,7 @@ constexpr std::array kRoles = {
     KeywordRole{"MEMBRANE SECTION", Role::kModel, kThin},
     KeywordRole{"SHELL GENERAL SECTION", Role::kModel, kThin},
     KeywordRole{"SHELL SECTION", Role::kModel, "section and material of shells"},
+    KeywordRole{"SHELL TO SOLID COUPLING", Role::kModel, "tie of the edge of a sheet"},
     KeywordRole{"NODAL THICKNESS", Role::kModel, "thickness of shells at their nodes"},
     KeywordRole{"SURFACE SECTION", Role::kModel, kThin},
     KeywordRole{"KINEMATIC COUPLING", Role::kModel, "rigid coupling"},
@@ -216,14 +217,13 @@ bool is(std::string_view key, std::string_view name) {
 std::string advice_of(std::string_view key) {
   if (role_of(key) == Role::kProcedure) return "";
   if (key == "IMPERFECTION") return ": nodes then stay where they were before it";
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kLosses = {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kLosses = {
       {{"CONNECTOR", "its connections: [[spring]] and [[equation]]"},
        {"FASTENER", "its connections: [[spring]] and [[coupling]]"},
        {"GAP", "the stiffness of its gaps: [[spring]]"},
        {"JOINT", "its stiffness: [[spring]]"},
        {"GASKET", "its stiffness: [[spring]] or [[tie]]"},
        {"EMBEDDEDELEMENT", "its connection: [[coupling]] or [[tie]]"},
-       {"SHELLTOSOLIDCOUPLING", "its connection: [[coupling]] or [[tie]]"},
        {"MATRIX", "its stiffness and mass: [[spring]] and [[point_mass]]"},
        {"SUBSTRUCTURE", "its stiffness and mass: [[spring]] and [[point_mass]]"},
        {"USERELEMENT", "its stiffness and mass: [[spring]] and [[point_mass]]"},

@@ -33,9 +33,11 @@ class RecipeMaker {
     if (deck_.mesh.node_sets.contains(kHangingMidSideNodes))
       file_.straight_edges.push_back(
           {Source("cells of the deck without these mid-side nodes"), kHangingMidSideNodes});
-    for (const Tie& tie : deck_.ties)
+    for (const Tie& tie : deck_.ties) {
       file_.ties.push_back({Source(tie.where), tie.name, tie.slave, tie.master,
                             tie.distance >= 0.0 ? std::optional(tie.distance) : std::nullopt});
+      file_.ties.back().edge = tie.edge;
+    }
     for (const Bolt& bolt : deck_.bolts)
       file_.bolts.push_back({Source(bolt.where), names_.point(bolt.reference), bolt.slave,
                              bolt.master, std::nullopt, bolt.direction});

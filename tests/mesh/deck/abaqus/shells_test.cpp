@@ -104,7 +104,7 @@ TEST(AbaqusShells, PressuresLeaveOnTheSideOfTheNormal) {
   EXPECT_THAT(refusal(kModel + "*STEP\n*STATIC\n*DLOAD\nEALL, P, 2.\n*END STEP\n"),
               HasSubstr("found a pressure P on EALL, which has elements that are no shells"));
   EXPECT_THAT(refusal(kSheetDeck + "*SURFACE, NAME=TOP\nWALL, S3\n"),
-              HasSubstr("found face 'S3' of shells, expected SPOS or SNEG"));
+              HasSubstr("found face 'S3' of shells, expected SPOS, SNEG or E1 to E4"));
 }
 
 TEST(AbaqusShells, OnesOnNodesOfSolidsAreHinges) {
@@ -114,6 +114,37 @@ TEST(AbaqusShells, OnesOnNodesOfSolidsAreHinges) {
                       kShellSection),
               HasSubstr("found edge 5-6 of shell S4 50 on nodes of solids, which do not turn: a "
                         "hinge"));
+}
+
+TEST(AbaqusShells, EdgesThatStandOnSolidsAreTied) {
+  const std::string parts =
+      kSheetDeck +
+      "*NODE\n21, 0, -1, -2\n22, 2, -1, -2\n23, 2, 1, -2\n24, 0, 1, -2\n25, 0, -1, 0\n26, 2, -1, 0"
+      "\n27, 2, 1, 0\n28, 0, 1, 0\n*ELEMENT, TYPE=C3D8, ELSET=BLOCK\n1, 21, 22, 23, 24, 25, 26, "
+      "27, "
+      "28\n*SOLID SECTION, ELSET=BLOCK, MATERIAL=STEEL\n*SURFACE, NAME=TOP\nBLOCK, S2\n"
+      "*SURFACE, NAME=FOOT\nWALL, E1\n";
+  Deck deck = read(parts +
+                   "*SHELL TO SOLID COUPLING, CONSTRAINT NAME=weld, INFLUENCE DISTANCE=.3, "
+                   "POSITION TOLERANCE=.1\nFOOT, TOP\n");
+  ASSERT_EQ(deck.ties.size(), 1U);
+  const Tie& tie = deck.ties[0];
+  EXPECT_EQ(tie.name, "weld");
+  EXPECT_EQ(tie.edge, "weld_edge");
+  EXPECT_EQ(tie.master, "TOP");
+  EXPECT_EQ(tie.distance, 0.1);
+  std::vector<int32_t> numbers;
+  for (const int32_t node : deck.mesh.node_set("weld_edge"))
+    numbers.push_back(deck.mesh.node_ids[static_cast<size_t>(node)]);
+  EXPECT_THAT(numbers, ::testing::UnorderedElementsAre(1, 2, 3));
+  EXPECT_THAT(recipe_of(deck).text(), HasSubstr("edge = \"weld_edge\""));
+  EXPECT_THAT(refusal(parts + "*SHELL TO SOLID COUPLING\nTOP, FOOT\n"), HasSubstr("surface"));
+  EXPECT_THAT(refusal(parts + "*SHELL TO SOLID COUPLING\nTOP, TOP\n"),
+              HasSubstr("found no surface 'TOP' of edges of shells, expected one"));
+  EXPECT_THAT(refusal(parts + "*SURFACE, NAME=BAD\nWALL, E5\n"),
+              HasSubstr("found edge E5 of shell S4 11, expected E1 to E4"));
+  EXPECT_THAT(refusal(parts + "*SURFACE, NAME=BAD\nWALL, E1\nWALL, SPOS\n"),
+              HasSubstr("surface BAD: found faces and edges of shells"));
 }
 
 }  // namespace
