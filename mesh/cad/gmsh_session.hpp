@@ -34,6 +34,13 @@ struct Gradation {
   double size, growth;  // on the face; per length
 };
 
+/// The same on a curve.
+struct CurveGradation {
+  int curve;
+  double size, growth;
+  int points;  // on the curve, from which the distance is measured
+};
+
 /// The requested cell sizes.
 struct SizeSettings {
   double size = 1.0;                 // target edge length
@@ -41,6 +48,8 @@ struct SizeSettings {
   int per_turn = 0;                  // elements on a full circle; 0: ignores curvature
   std::map<int, double> face_sizes;  // by face tag
   std::vector<Gradation> gradations;
+  std::vector<CurveGradation> curves;  // where there are some, sizes on edges do not extend into
+                                       // faces otherwise
   std::vector<FineSpot> spots;
   bool adaptive_faces = false;  // faces by MeshAdapt, the most robust, instead of frontal
 };

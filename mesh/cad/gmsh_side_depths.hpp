@@ -13,7 +13,8 @@ struct FaceDepths {
   int face = 0;  // tag
   double area = 0.0;
   Eigen::Vector3d centre;                        // of the area
-  std::vector<Eigen::Vector3d> points, outward;  // at least one; unit normals out of the solid
+  std::vector<Eigen::Vector3d> points, outward;  // unit normals out of the solid; none of a face
+                                                 // narrower than its edges' tolerance
   std::vector<double> depth;  // from each point straight in to the next face; infinite: none
 };
 

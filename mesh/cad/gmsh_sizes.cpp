@@ -32,25 +32,33 @@ double spot_size(const std::vector<FineSpot>& spots, double size, const Eigen::V
   return size;
 }
 
-// Gmsh's fields: the distance from sample points of the face, and a size that grows with it.
-void set_gradations(const SizeSettings& settings) {
-  constexpr double kSampling = 40;  // points along each direction of a face
+// Gmsh's fields: the distance from sample points of a face or curve, and a size that grows with it.
+// @return the number of the second one.
+double add_growth(const char* list, int entity, int points, double size, double growth,
+                  double largest) {
   namespace field = gmsh::model::mesh::field;
-  std::vector<double> thresholds;
-  for (const Gradation& g : settings.gradations) {
-    const int distance = field::add("Distance"), threshold = field::add("Threshold");
-    field::setNumbers(distance, "FacesList", {static_cast<double>(g.face)});
-    field::setNumber(distance, "NNodesByEdge", kSampling);
-    field::setNumber(threshold, "IField", distance);
-    field::setNumber(threshold, "LcMin", g.size);
-    field::setNumber(threshold, "LcMax", settings.size);
-    field::setNumber(threshold, "DistMin", 0.0);
-    field::setNumber(threshold, "DistMax", (settings.size - g.size) / g.growth);
-    thresholds.push_back(threshold);
-  }
-  if (thresholds.empty()) return;
+  const int distance = field::add("Distance"), threshold = field::add("Threshold");
+  field::setNumbers(distance, list, {static_cast<double>(entity)});
+  field::setNumber(distance, "NNodesByEdge", points);
+  field::setNumber(threshold, "IField", distance);
+  field::setNumber(threshold, "LcMin", size);
+  field::setNumber(threshold, "LcMax", largest);
+  field::setNumber(threshold, "DistMin", 0.0);
+  field::setNumber(threshold, "DistMax", (largest - size) / growth);
+  return threshold;
+}
+
+void set_gradations(const SizeSettings& settings) {
+  constexpr int kSampling = 40;  // points along each direction of a face
+  namespace field = gmsh::model::mesh::field;
+  std::vector<double> growths;
+  for (const Gradation& g : settings.gradations)
+    growths.push_back(add_growth("FacesList", g.face, kSampling, g.size, g.growth, settings.size));
+  for (const CurveGradation& g : settings.curves)
+    growths.push_back(add_growth("EdgesList", g.curve, g.points, g.size, g.growth, settings.size));
+  if (growths.empty()) return;
   const int smallest = field::add("Min");
-  field::setNumbers(smallest, "FieldsList", thresholds);
+  field::setNumbers(smallest, "FieldsList", growths);
   field::setAsBackgroundMesh(smallest);
 }
 
@@ -63,7 +71,7 @@ void set_sizes(const SizeSettings& settings) {
   gmsh::option::setNumber("Mesh.MeshSizeMax", settings.size);
   gmsh::option::setNumber("Mesh.MeshSizeMin", settings.min_size);
   gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", settings.per_turn);
-  gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 1);
+  gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", settings.curves.empty());
   gmsh::model::mesh::removeSizeCallback();
   set_gradations(settings);
   if (settings.face_sizes.empty() && settings.spots.empty()) return;

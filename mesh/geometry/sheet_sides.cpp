@@ -38,6 +38,7 @@ double median_depth(const std::vector<FaceDepths>& faces) {
 
 /// Of the points of a face, those with the sheet behind them.
 double share_at(const FaceDepths& face, double thickness) {
+  if (face.depth.empty()) return 0.0;
   const auto at = std::ranges::count_if(
       face.depth, [&](double depth) { return std::abs(depth - thickness) <= kSame * thickness; });
   return static_cast<double>(at) / static_cast<double>(face.depth.size());

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include "core/base/child_process.hpp"
@@ -23,6 +24,9 @@ namespace {
 
 // Of ShellShape: a quadrilateral beyond them becomes two triangles.
 constexpr double kMostWarp = 0.25, kLeastJacobian = 0.15;
+constexpr double kGrowth = 0.3;         // of the size per distance from finer edges
+constexpr double kNearlyAll = 0.9;      // of the size: edges that are hardly finer
+constexpr double kMostPoints = 2000.0;  // of the distance from a curve
 
 /// Cells of one type, and the CAD face of each.
 struct SheetRows {
@@ -173,6 +177,30 @@ void name_edges(GmshSession& session, const PartGeometry& part, const RawSheet& 
   }
 }
 
+/// Gmsh extends small sizes on the edges of a face over all of it. Here they grow from the curves
+/// where the curvature, or a local size, asks for them.
+void grade_from_curves(GmshSession& session, const std::vector<FaceFacts>& faces,
+                       SizeSettings& sizes) {
+  std::map<int, FaceSizes::Edge> curves;
+  for (FaceFacts& curve : session.edges()) {
+    curve.kind = "Plane";  // its own curvature alone
+    const FaceSizes own = sizes_on(session, curve, sizes);
+    if (!own.edges.empty()) curves[curve.tag] = own.edges.front();
+  }
+  for (const FaceFacts& face : faces) {
+    const FaceSizes own = sizes_on(session, face, sizes);
+    const double least = *std::ranges::min_element(own.at_samples);
+    for (const int curve : session.curves_of(face.tag))
+      if (const auto at = curves.find(curve); at != curves.end())
+        at->second.size = std::min(at->second.size, least);
+  }
+  for (const auto& [tag, curve] : curves) {
+    if (curve.size >= kNearlyAll * sizes.size) continue;
+    const double points = std::clamp(std::ceil(curve.length / curve.size), 2.0, kMostPoints);
+    sizes.curves.push_back({tag, curve.size, kGrowth, static_cast<int>(points)});
+  }
+}
+
 double area_of(const std::vector<FaceFacts>& faces) {
   double area = 0.0;
   for (const FaceFacts& face : faces) area += face.area;
@@ -186,7 +214,8 @@ PartMesh mesh_sheet(GmshSession& session, const PartGeometry& part, const MeshSe
   const SheetFaces& sheet = *part.sheet;
   const std::vector<FaceFacts> faces = session.boundary_faces();
   const FaceTags tags = find_surfaces(faces, part.surfaces, part.unit, where);
-  const SizeSettings sizes = size_settings(session, settings, faces, tags, metres, where);
+  SizeSettings sizes = size_settings(session, settings, faces, tags, metres, where);
+  grade_from_curves(session, faces, sizes);
   const bool triangles = sheet.cells == SheetCells::kTriangles;
   const double predicted = require_few_shells(session, sizes, triangles, settings, metres, where);
   PartMesh result;

@@ -79,15 +79,15 @@ class Shells(unittest.TestCase):
 
     def test_a_pan_of_cad_agrees_with_quadratic_solids(self):
         (self.folder / "cad.mesh.toml").write_text('name = "pan"\nkind = "pan"\n[pan]\nthickness = 1.5\n[mesh]\n'
-                                                   "element_size_mm = 10\nelements_per_turn = 16\nmin_size_mm = 3.3\n")
+                                                   "element_size_mm = 5\nelements_per_turn = 16\n")
         (self.folder / "cad.fe.toml").write_text('[material.steel]\nregions = ["pan"]\nE_gpa = 210\nnu = 0.3\nrho = 7850\n')
         self.run_stages(("mesh", "cad.mesh.toml", "-o", "cad.mesh.h5", "--write-step", "pan.step"))
         hz = self.modes_of("cad", 18)
         np.testing.assert_allclose(hz[hz > 1.0][:12] / SOLIDS, 1.0, atol=1e-2)
         # The geometry that was written, as a stranger's file of faces.
         (self.folder / "faces.mesh.toml").write_text('name = "pan"\nkind = "sheet"\n[sheet]\nsource = "pan.step"\n'
-                                                     'region = "pan"\nthickness = 1.5\n[mesh]\nelement_size_mm = 10\n'
-                                                     "elements_per_turn = 16\nmin_size_mm = 3.3\n")
+                                                     'region = "pan"\nthickness = 1.5\n[mesh]\nelement_size_mm = 5\n'
+                                                     "elements_per_turn = 16\n")
         shutil.copy(self.folder / "cad.fe.toml", self.folder / "faces.fe.toml")
         self.run_stages(("mesh", "faces.mesh.toml", "-o", "faces.mesh.h5"))
         faces = self.modes_of("faces", 10)

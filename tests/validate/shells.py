@@ -30,7 +30,7 @@ SOLIDS = {
                         1018.63),
 }
 CASES = [("free, 1.5 mm", "10 mm", 1, []), ("free, 1.5 mm", "5 mm", 2, []), ("free, 1.5 mm", "2.5 mm", 4, []),
-         ("free, 1.5 mm", "`kind = \"pan\"`, 10 mm", 0, []),
+         ("free, 1.5 mm", "`kind = \"pan\"`, 5 mm", 0, []),
          ("free, .8 mm", "5 mm", 2, ["--t", "0.8"]), ("free, .8 mm", "2.5 mm", 4, ["--t", "0.8"]),
          ("tied to a frame", "5 mm", 2, ["--frame", "tied"]), ("tied to a frame", "2.5 mm", 4, ["--frame", "tied"])]
 
@@ -44,9 +44,9 @@ def benchmarks():
 
 
 def mesh_pan(folder):
-    """The pan by Gmsh from its dimensions, cells of 10 mm, smaller in its fillets: a.mesh.h5 and a.fe.toml."""
+    """The pan by Gmsh from its dimensions, cells of 5 mm, smaller in its fillets: a.mesh.h5 and a.fe.toml."""
     (folder / "pan.mesh.toml").write_text('name = "pan"\nkind = "pan"\n[pan]\nthickness = 1.5\n[mesh]\n'
-                                          "element_size_mm = 10\nelements_per_turn = 16\nmin_size_mm = 3.3\n")
+                                          "element_size_mm = 5\nelements_per_turn = 16\n")
     (folder / "a.fe.toml").write_text('[material.steel]\nregions = ["pan"]\nE_gpa = 210\nnu = 0.3\nrho = 7850\n')
     run("mesh", "pan.mesh.toml", "-o", "a.mesh.h5", folder=folder)
 
