@@ -149,7 +149,8 @@ TEST_F(CycleMeans, OneCycleIsTheLastCycleToTheBit) {
 TEST_F(CycleMeans, ARunThatBeginsBeforeFiringIsCoveredByItsCycle) {
   // As every run of an engine, from -360 to 360 deg; before, cycles began at firing.
   write_run(folder_, sphere_model(), {.cycles = 1, .first_angle_deg = -360.0}, [](double) {
-    return Motion{{1, 1}, {1, 1}, {1, 1}};
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(2);
+    return Motion{ones, ones, ones};
   });
   const RunBody body(folder_ / "run.h5", "");
   const Piece piece = window(body.clock(), {.name = "w", .cycles = 1}, "run");
