@@ -154,16 +154,16 @@ const Keys<Term>& term_keys() {
   return keys;
 }
 
-/// The rows that a tie and a bolt have. @return that of the slave.
+/// The rows that a tie and a bolt have.
 template <class Rows>
-keys::Row surface_rows(Rows& key, Tie& tie) {
-  const keys::Row slave = key.text("slave", tie.slave, "a surface of the mesh, which follows");
+void surface_rows(Rows& key, Tie& tie, bool needs_slave) {
+  keys::Row slave = key.text("slave", tie.slave, "a surface of the mesh, which follows");
+  if (needs_slave) slave.required();
   key.text("master", tie.master, "a surface of the mesh").required();
   key.number("distance", tie.distance, Range::not_negative(),
              "largest gap; a tenth of the mean slave face's size, or half the thickness of the "
              "sheet whose edge it is, without it")
       .in_length_unit();
-  return slave;
 }
 
 }  // namespace
@@ -227,7 +227,7 @@ const Keys<Tie>& tie_keys() {
       [](auto& key, Tie& tie) {
         key.source(tie.source);
         key.text("name", tie.name, "name for messages and heat");
-        surface_rows(key, tie);
+        surface_rows(key, tie, false);
         key.text("edge", tie.edge,
                  "in place of slave: a node set with the edge of a sheet "
                  "that stands on the master");
@@ -242,7 +242,7 @@ const Keys<Tie>& bolt_keys() {
       [](auto& key, Tie& bolt) {
         key.source(bolt.source);
         key.text("name", bolt.name, "name of its set").required();
-        surface_rows(key, bolt).required();
+        surface_rows(key, bolt, true);
         key.direction("direction", bolt.direction, "direction from slave to master").required();
       });
   return keys;

@@ -41,7 +41,7 @@ class HardN17GmshFalls(unittest.TestCase):
     def environment(self, way):
         # The sanitizers' run-time library must normally come first; not here.
         return {**os.environ, "LD_PRELOAD": str(SHIM), "CLATTER_TEST_GMSH": way, "TMPDIR": str(self.folder / "tmp"),
-                "ASAN_OPTIONS": "verify_asan_link_order=0"}
+                "ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":verify_asan_link_order=0"}
 
     def mesh(self, way, part="tube.mesh.toml", *more):
         return subprocess.run([stages.BIN / "clatter-mesh", part, "-o", "tube.mesh.h5", *more], cwd=self.folder,

@@ -11,6 +11,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
+import old_base64  # noqa: E402
 import stages  # noqa: E402
 from vtk_test import deck  # noqa: E402
 
@@ -217,6 +218,9 @@ class ShellExports(unittest.TestCase):
             import meshio
         except ImportError:
             self.skipTest("meshio (package python3-meshio) is not installed")
+        patch = old_base64.patched()
+        patch.start()
+        self.addCleanup(patch.stop)
         # In .msh a face of two groups is two elements: shells and the cube's faces are the skin, too.
         for kind, quads, triangles in (("vtu", 2, 1), ("msh", 10, 2), ("med", 8, 1), ("inp", 2, 1)):
             with self.subTest(kind):

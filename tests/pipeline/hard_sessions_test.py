@@ -38,7 +38,7 @@ class HardP13DecimalComma(hard_pipeline.HardPipeline):
         cls.addClassCleanup(shutil.rmtree, locales)
         subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", f"{locales}/de_DE.UTF-8"], check=True, capture_output=True)
         cls.language = {**os.environ, "LOCPATH": locales, "LC_ALL": "de_DE.UTF-8"}
-        cls.shim = {**cls.language, "LD_PRELOAD": str(BUILD / "tests/pipeline/libspeaks_german.so"), "ASAN_OPTIONS": "verify_asan_link_order=0"}
+        cls.shim = {**cls.language, "LD_PRELOAD": str(BUILD / "tests/pipeline/libspeaks_german.so"), "ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":verify_asan_link_order=0"}
 
     def test_the_language_of_these_tests_has_a_decimal_comma(self):
         shown = subprocess.run(["/usr/bin/printf", "%.1f", "1,5"], env=self.language, capture_output=True, text=True)
@@ -138,7 +138,7 @@ class HardP15ProcessorTime(hard_pipeline.HardPipeline):
 
 class HardH3FileSystemWithoutLocks(hard_pipeline.HardPipeline):
     def test_all_stages_read_and_write_there(self):
-        environment = {**os.environ, "LD_PRELOAD": str(BUILD / "tests/pipeline/libno_locks.so"), "ASAN_OPTIONS": "verify_asan_link_order=0"}
+        environment = {**os.environ, "LD_PRELOAD": str(BUILD / "tests/pipeline/libno_locks.so"), "ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":verify_asan_link_order=0"}
         equal = 0
         for stage, arguments in COMMANDS.items():
             with self.subTest(stage=stage):

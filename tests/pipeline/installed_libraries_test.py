@@ -8,6 +8,7 @@ import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("CLATTER_BUILD", SOURCE / "build/release"))
+SANITIZED = "CLATTER_SANITIZE:BOOL=ON" in (BUILD / "CMakeCache.txt").read_text()
 PROGRAMS = "matrix_modes", "condense_part", "deck_to_rom", "mass_on_spring", "slider_film", "expand_field"
 
 
@@ -27,7 +28,7 @@ class InstalledLibraries(unittest.TestCase):
 
     def configure(self, source, build):
         return cmake("-S", source, "-B", self.folder / build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                     f"-DCMAKE_PREFIX_PATH={self.prefix}")
+                     f"-DCMAKE_PREFIX_PATH={self.prefix}", *(["-DCMAKE_CXX_FLAGS=-fsanitize=address,undefined"] if SANITIZED else []))
 
     def test_the_samples_need_nothing_but_the_installation(self):
         source = self.folder / "samples"

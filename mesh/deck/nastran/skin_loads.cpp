@@ -23,7 +23,8 @@ void add_shell(Model& model, const RawSkin& shell, const RawPressure& pressure,
   face.values = pressure.values;
   drop_repeated_corner(face);
   for (const ShellFace& part : linear_parts(face)) {
-    SkinLoad& load = loads.emplace_back(pressure, LoadedFace{part.type, part.nodes, 0});
+    loads.push_back({pressure, {part.type, part.nodes, 0}});
+    SkinLoad& load = loads.back();
     load.pressure.values = part.values;
     if (part.type == FaceType::kTri3) load.pressure.values[3] = part.values[0];
   }
