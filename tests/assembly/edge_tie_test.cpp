@@ -105,6 +105,14 @@ TEST(EdgeTie, OfNodesWithoutAFreeEdgeIsRefused) {
             std::string::npos);
 }
 
+TEST(EdgeTie, ABoltHasASlaveAlways) {
+  const std::string text = test::refusal_of([] {
+    build(walls_on_block({{0.01, 0.03}, {0.09, 0.03}}, 4, 4),
+          wall(0.0, "[[bolt]]\nname = \"b\"\nmaster = \"z0\"\ndirection = [0, 0, 1]\n"));
+  });
+  EXPECT_NE(text.find("bolt[0].slave: "), std::string::npos) << text;
+}
+
 TEST(EdgeTie, WideCellsOfTheSolidAreSaid) {
   std::vector<std::string> warnings;
   set_log_sink([&](bool warning, const std::string& text) {
