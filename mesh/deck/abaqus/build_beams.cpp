@@ -72,10 +72,10 @@ void take_material(const Model& model, const Card& card, Beam& beam) {
   if (known == model.material_names.end())
     model.source.fail(card.origin(), fmt::format("found no *MATERIAL {}", wanted));
   const Material& material = model.deck.materials.at(known->second);
-  if (material.kind != Material::Kind::kIsotropic)
-    model.source.fail(
-        card.origin(),
-        fmt::format("*MATERIAL {} of beams is not isotropic, expected E and nu", wanted));
+  if (material.kind != Material::Kind::kIsotropic || material.constants.empty())
+    model.source.fail(card.origin(), fmt::format("*MATERIAL {} of beams is not isotropic, expected "
+                                                 "*ELASTIC of E and nu",
+                                                 wanted));
   beam.E = material.constants[0];
   beam.G = beam.E / (2.0 * (1.0 + material.constants[1]));
   beam.rho = material.density;

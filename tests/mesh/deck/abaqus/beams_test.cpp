@@ -80,6 +80,10 @@ TEST(AbaqusBars, WithoutMeaningIsRefusedByLine) {
   EXPECT_THAT(refused(head + "BOX\n6., 4., 1., .5, 1., .6\n"), HasSubstr("unequal opposite walls"));
   EXPECT_THAT(refused("*BEAM SECTION, ELSET=B, MATERIAL=Iron, SECTION=CIRC\n1.\n"),
               HasSubstr("found no *MATERIAL Iron"));
+  // Found by the fuzzer: a material without *ELASTIC, or with one that is refused.
+  EXPECT_THAT(refused("*MATERIAL, NAME=Iron\n*DENSITY\n7850.\n"
+                      "*BEAM SECTION, ELSET=B, MATERIAL=Iron, SECTION=CIRC\n1.\n"),
+              HasSubstr("*MATERIAL Iron of beams is not isotropic, expected *ELASTIC of E and nu"));
 }
 
 }  // namespace
