@@ -25,8 +25,10 @@ std::optional<std::string_view> Source::next() {
 void Source::include(const std::string& name, Origin origin) {
   std::vector<std::filesystem::path> candidates = {name};
   if (candidates.front().is_relative()) {
-    candidates = {real_folders().back() / name,
-                  std::filesystem::path(files().front()).parent_path() / name};
+    candidates = {std::filesystem::path(files().front()).parent_path() / name};
+    // A deck that is a text has no folder.
+    if (!real_folders().empty())
+      candidates.insert(candidates.begin(), real_folders().back() / name);
   }
   LineSource::include("*INCLUDE", name, candidates, origin);
 }
