@@ -14,6 +14,7 @@
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/fe/shell_directors.hpp"
+#include "core/mesh/free_edges.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -30,44 +31,24 @@ struct Foot {
   const ProjectedNode *outer = nullptr, *inner = nullptr;  // u+, u-; null: not tied
 };
 
-/// A side of a cell that no other shell has.
-struct SheetEdge {
-  size_t block = 0;
-  Eigen::Index cell = 0, from = 0;  // from: of its nodes
-};
-
-std::vector<SheetEdge> free_edges(const mesh::Mesh& mesh, const std::vector<int32_t>& nodes) {
-  std::map<std::pair<int32_t, int32_t>, std::pair<SheetEdge, int>> edges;
-  for (size_t b = 0; b < mesh.shells.size(); ++b) {
-    const IndexMatrix& cells = mesh.shells[b].nodes;
-    for (Eigen::Index c = 0; c < cells.rows(); ++c)
-      for (Eigen::Index i = 0; i < cells.cols(); ++i) {
-        const int32_t a = cells(c, i), z = cells(c, (i + 1) % cells.cols());
-        if (!std::ranges::binary_search(nodes, a) || !std::ranges::binary_search(nodes, z))
-          continue;
-        ++edges.try_emplace(std::minmax(a, z), SheetEdge{b, c, i}, 0).first->second.second;
-      }
-  }
-  std::vector<SheetEdge> free;
-  for (const auto& [ends, edge] : edges)
-    if (edge.second == 1) free.push_back(edge.first);
-  return free;
-}
-
 /// The feet of an edge, and the faces between their four corners.
 class Footprint {
  public:
   Footprint(const PartData& part, const TieSpec& spec)
       : part_(part), first_(static_cast<int32_t>(part.mesh.nodes.rows())) {
     const mesh::Mesh& mesh = part.mesh;
-    const std::vector<SheetEdge> edges = free_edges(mesh, mesh.node_set(spec.edge));
+    const std::vector<int32_t>& set = mesh.node_set(spec.edge);
+    std::vector<mesh::ShellSide> edges = mesh::free_edges(mesh.shells);
+    std::erase_if(edges, [&](const mesh::ShellSide& edge) {
+      return !std::ranges::binary_search(set, edge.a) || !std::ranges::binary_search(set, edge.b);
+    });
     if (edges.empty())
       throw InputError(
           fmt::format("{}: found no free edge of a sheet between nodes of {}, expected "
                       "some",
                       spec.where, spec.edge));
     const std::vector<RowMatrix> directors = fe::shell_directors(mesh.nodes, mesh.shells);
-    for (const SheetEdge& edge : edges) add(edge, directors[edge.block]);
+    for (const mesh::ShellSide& edge : edges) add(edge, directors[edge.block]);
   }
 
   std::vector<Foot>& feet() { return feet_; }
@@ -82,6 +63,12 @@ class Footprint {
     return part_.mesh.nodes.row(foot.node).transpose() + z * foot.V;
   }
 
+  /// Of a face, across the sheet.
+  const Eigen::Vector3d& across(const TieFace& face) const {
+    return feet_[static_cast<size_t>(face.nodes[0] - first_) / 2].V;
+  }
+  size_t node_count() const { return at_node_.size(); }
+
   /// Takes the corners' projections.
   void take(const std::vector<ProjectedNode>& tied) {
     for (const ProjectedNode& row : tied) {
@@ -91,7 +78,7 @@ class Footprint {
   }
 
  private:
-  void add(const SheetEdge& edge, const RowMatrix& directors) {
+  void add(const mesh::ShellSide& edge, const RowMatrix& directors) {
     const mesh::ShellBlock& block = part_.mesh.shells[edge.block];
     const Eigen::Index n = block.nodes.cols(), c = edge.cell, i = edge.from, j = (i + 1) % n;
     const auto at = [&](Eigen::Index k) -> Eigen::Vector3d {
@@ -225,18 +212,26 @@ class Rotation {
 };
 
 void say_edge(const TieSpec& spec, const Footprint& footprint, const Projection& found,
-              const std::vector<TieFace>& master, int held) {
+              const std::vector<TieFace>& master, size_t tied, int held) {
   say(fmt::format("{}: the edge follows {} over {:.1f} % of its footprint, largest gap {:.3g} m",
                   spec.name, spec.master, 100.0 * found.covered / found.slave_area,
                   found.largest_gap));
+  if (tied < footprint.node_count())
+    warn(fmt::format(
+        "{}: {} of {} nodes of the edge {} are not tied: they do not stand on {} within "
+        "{:.3g} m",
+        spec.name, footprint.node_count() - tied, footprint.node_count(), spec.edge, spec.master,
+        *spec.distance));
   if (held > 0)
     warn(fmt::format("{}: {} displacements and rotations are held by supports and not tied",
                      spec.name, held));
   const FaceSearch search(master, *spec.distance);
   double widest = 0.0;
   for (const TieFace& face : footprint.faces())
-    for (const int32_t near : search.near(box_of(face)))
-      widest = std::max(widest, mean_size({master[static_cast<size_t>(near)]}));
+    for (const int32_t near : search.near(box_of(face))) {
+      const Eigen::VectorXd y = master[static_cast<size_t>(near)].x * footprint.across(face);
+      widest = std::max(widest, y.maxCoeff() - y.minCoeff());
+    }
   if (widest > kCoarse * footprint.thickest())
     warn(
         fmt::format("{}: the cells of {} at the edge are {:.3g} m wide, of a sheet {:.3g} m thick: "
@@ -286,7 +281,7 @@ std::vector<Dependence> tie_edge(const PartData& part, const TieSpec& given,
     for (int r = 0; r < 3; ++r)
       if (rotation.depends(r)) depend(first + r, rotation.row(r, first));
   }
-  say_edge(spec, footprint, found, master, held);
+  say_edge(spec, footprint, found, master, nodes.size(), held);
   return dependences;
 }
 

@@ -28,14 +28,19 @@ struct CadSolid {
 
 enum class SheetCells { kQuadrilaterals, kTriangles };
 
+/// A point of a face with the normal that points out of the solid whose face it was.
+struct OutwardPoint {
+  int face = 0;
+  Eigen::Vector3d at, normal;
+};
+
 /// Faces that are meshed as shells; nothing else is left in the session.
 struct SheetFaces {
   std::string region;
   double thickness = 0.0, offset = 0.0;  // offset: from the faces to the middle, outward
   SheetCells cells = SheetCells::kQuadrilaterals;
-  std::vector<int> faces;                        // tags, ascending
-  std::vector<Eigen::Vector3d> points, outward;  // that tell the outward side; empty: the one of
-                                                 // most faces
+  std::vector<int> faces;             // tags, ascending
+  std::vector<OutwardPoint> outward;  // that tell the outward side; none: that of most cells
 };
 
 struct PartGeometry {

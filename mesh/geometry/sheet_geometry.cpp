@@ -13,27 +13,16 @@
 namespace clatter::mesh {
 namespace {
 
-/// Faces in groups that share no curve.
+std::map<int, std::vector<int>> curves_of(GmshSession& session, const std::vector<int>& faces) {
+  std::map<int, std::vector<int>> curves;
+  for (const int face : faces) curves[face] = session.curves_of(face);
+  return curves;
+}
+
+/// Groups of faces that share no curve.
 size_t pieces_of(GmshSession& session) {
-  std::vector<std::pair<int, std::vector<int>>> left;
-  for (const int face : session.all_faces()) left.emplace_back(face, session.curves_of(face));
-  size_t pieces = 0;
-  while (!left.empty()) {
-    ++pieces;
-    std::vector<int> reached = left.back().second;
-    left.pop_back();
-    const auto touches = [&](const auto& face) {
-      return std::ranges::any_of(face.second, [&](int curve) {
-        return std::ranges::find(reached, curve) != reached.end();
-      });
-    };
-    for (auto at = std::ranges::find_if(left, touches); at != left.end();
-         at = std::ranges::find_if(left, touches)) {
-      reached.insert(reached.end(), at->second.begin(), at->second.end());
-      left.erase(at);
-    }
-  }
-  return pieces;
+  const std::vector<int> faces = session.all_faces();
+  return groups_of(faces, curves_of(session, faces)).size();
 }
 
 std::vector<int> selected_faces(GmshSession& session, const SheetParameters& p,
@@ -54,8 +43,7 @@ void take_side(GmshSession& session, const SheetParameters& p, const Solids& sol
         fmt::format("{}: source: found {} solids, expected one sheet; [sheet.faces] "
                     "chooses faces of several",
                     p.where, solids.size()));
-  std::map<int, std::vector<int>> curves;
-  for (const FaceDepths& face : depths) curves[face.face] = session.curves_of(face.face);
+  const std::map<int, std::vector<int>> curves = curves_of(session, session.all_faces());
   try {
     const SheetSides sides = find_sides(depths, curves, session.volume(solids), p.thickness, unit);
     sheet.faces = sides.outer;

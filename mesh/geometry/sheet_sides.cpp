@@ -13,7 +13,7 @@ namespace clatter::mesh {
 namespace {
 
 constexpr double kSame = 0.05;       // of the thickness, and of the volume
-constexpr double kMixed = 0.9;       // of a face's points: fewer are not of a side as a whole
+constexpr double kMixed = 0.75;      // of a face's points: fewer are not of a side as a whole
 constexpr double kSmallFace = 0.02;  // of the area of all faces
 constexpr double kThickest = 0.2;    // of the root of the area of a side: more is no sheet
 const char* const kWayOut =
@@ -49,7 +49,8 @@ std::string place_of(const FaceDepths& face) {
                      face.centre.y(), face.centre.z());
 }
 
-/// Faces that hang together by curves, each group ascending.
+}  // namespace
+
 std::vector<std::vector<int>> groups_of(const std::vector<int>& faces,
                                         const std::map<int, std::vector<int>>& curves) {
   std::map<int, std::vector<int>> faces_at;
@@ -70,16 +71,13 @@ std::vector<std::vector<int>> groups_of(const std::vector<int>& faces,
   return groups;
 }
 
-}  // namespace
-
 void take_outward(const std::vector<FaceDepths>& depths, SheetFaces& sheet) {
   constexpr size_t kPoints = 4;  // of a face
   for (const FaceDepths& face : depths) {
     if (!std::ranges::binary_search(sheet.faces, face.face)) continue;
     const size_t step = std::max<size_t>(1, face.points.size() / kPoints);
     for (size_t i = 0; i < face.points.size(); i += step) {
-      sheet.points.push_back(face.points[i]);
-      sheet.outward.push_back(face.outward[i]);
+      sheet.outward.push_back({face.face, face.points[i], face.outward[i]});
     }
   }
 }

@@ -10,6 +10,10 @@
 
 namespace clatter::mesh {
 
+/// Faces that hang together by common curves, each group ascending. @param curves of each face.
+std::vector<std::vector<int>> groups_of(const std::vector<int>& faces,
+                                        const std::map<int, std::vector<int>>& curves);
+
 /// Points of the sheet's faces with their outward normals.
 void take_outward(const std::vector<FaceDepths>& depths, SheetFaces& sheet);
 

@@ -13,6 +13,7 @@
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/mesh/boundary.hpp"
+#include "core/mesh/free_edges.hpp"
 #include "core/mesh/orient_shells.hpp"
 #include "core/mesh/shell_shape.hpp"
 #include "mesh/part/mesh_sizes.hpp"
@@ -96,49 +97,48 @@ SheetCellsOfFaces cells_of(const RawSheet& raw, const SheetFaces& sheet, double 
   return out;
 }
 
-/// 1 where most of the points that tell it say that the cells' side is outward, else -1.
-int side_of(const Mesh& mesh, const SheetFaces& sheet, double metres) {
-  Eigen::Index count = 0;
-  for (const ShellBlock& block : mesh.shells) count += block.nodes.rows();
-  RowMatrix centres(count, 3), normals(count, 3);
-  count = 0;
-  for (const ShellBlock& block : mesh.shells)
-    for (const auto& cell : block.nodes.rowwise()) {
-      const Eigen::Index n = cell.size();
-      centres.row(count).setZero();
-      for (const int32_t node : cell) centres.row(count) += mesh.nodes.row(node) / n;
-      const Eigen::Vector3d a = mesh.nodes.row(cell(1)) - mesh.nodes.row(cell(0)),
-                            b = mesh.nodes.row(cell(n - 1)) - mesh.nodes.row(cell(0));
-      normals.row(count++) = a.cross(b).normalized();
+/// Turns the cells of each face to its outward side, where the points on it tell which.
+void turn_outward(const SheetFaces& sheet, double metres,
+                  const std::vector<std::vector<int>>& faces, Mesh& mesh) {
+  struct CellAt {
+    size_t block;
+    Eigen::Index row;
+    Eigen::Vector3d centre, normal;
+  };
+  std::map<int, std::vector<CellAt>> cells;
+  for (size_t b = 0; b < mesh.shells.size(); ++b) {
+    const IndexMatrix& nodes = mesh.shells[b].nodes;
+    for (Eigen::Index c = 0; c < nodes.rows(); ++c) {
+      const auto at = [&](Eigen::Index i) -> Eigen::Vector3d {
+        return mesh.nodes.row(nodes(c, i));
+      };
+      const Eigen::Vector3d x = at(0), y = at(1), z = at(nodes.cols() - 1);
+      cells[faces[b][static_cast<size_t>(c)]].push_back(
+          {b, c, (x + y + z) / 3.0, (y - x).cross(z - x)});
     }
-  int votes = 0;
-  for (size_t i = 0; i < sheet.points.size(); ++i) {
-    Eigen::Index nearest = 0;
-    (centres.rowwise() - metres * sheet.points[i].transpose())
-        .rowwise()
-        .squaredNorm()
-        .minCoeff(&nearest);
-    votes += normals.row(nearest).dot(sheet.outward[i]) > 0.0 ? 1 : -1;
   }
-  return votes < 0 ? -1 : 1;
-}
-
-void turn_over(Mesh& mesh) {
-  for (ShellBlock& block : mesh.shells)
-    block.nodes.col(1).swap(block.nodes.col(block.nodes.cols() - 1));
+  std::map<int, int> votes;
+  for (const OutwardPoint& point : sheet.outward) {
+    if (!cells.contains(point.face)) continue;
+    const auto nearest = std::ranges::min_element(
+        cells.at(point.face), {},
+        [&](const CellAt& cell) { return (cell.centre - metres * point.at).squaredNorm(); });
+    votes[point.face] += nearest->normal.dot(point.normal) > 0.0 ? 1 : -1;
+  }
+  for (const auto& [face, vote] : votes) {
+    if (vote >= 0) continue;
+    for (const CellAt& cell : cells.at(face)) {
+      IndexMatrix& nodes = mesh.shells[cell.block].nodes;
+      std::swap(nodes(cell.row, 1), nodes(cell.row, nodes.cols() - 1));
+    }
+  }
 }
 
 std::vector<int32_t> sorted(std::set<int32_t> nodes) { return {nodes.begin(), nodes.end()}; }
 
-std::vector<int32_t> free_edges_of(const Mesh& mesh) {
-  std::map<std::pair<int32_t, int32_t>, int> cells;
-  for (const ShellBlock& block : mesh.shells)
-    for (const auto& cell : block.nodes.rowwise())
-      for (Eigen::Index i = 0; i < cell.size(); ++i)
-        ++cells[std::minmax(cell(i), cell((i + 1) % cell.size()))];
+std::vector<int32_t> nodes_of_free_edges(const Mesh& mesh) {
   std::set<int32_t> nodes;
-  for (const auto& [edge, count] : cells)
-    if (count == 1) nodes.insert({edge.first, edge.second});
+  for (const ShellSide& edge : free_edges(mesh.shells)) nodes.insert({edge.a, edge.b});
   return sorted(std::move(nodes));
 }
 
@@ -160,7 +160,7 @@ void name_surfaces(const FaceTags& tags, const std::vector<std::vector<int>>& fa
 
 void name_edges(GmshSession& session, const PartGeometry& part, const RawSheet& raw,
                 const std::string& where, Mesh& mesh) {
-  mesh.node_sets["free_edges"] = free_edges_of(mesh);
+  mesh.node_sets["free_edges"] = nodes_of_free_edges(mesh);
   const FaceTags tags = find_surfaces(session.edges(), part.edges, part.unit, where);
   for (const auto& [name, curves] : tags) {
     if (mesh.node_sets.contains(name))
@@ -227,12 +227,17 @@ PartMesh mesh_sheet(GmshSession& session, const PartGeometry& part, const MeshSe
   mesh.regions = {sheet.region};
   SheetCellsOfFaces cells = cells_of(raw, sheet, metres);
   mesh.shells = std::move(cells.blocks);
+  turn_outward(sheet, metres, cells.faces, mesh);
   orient_shells(mesh.shells);
   for (ShellBlock& block : mesh.shells)
     if (block.offset.size() > 0) block.offset.setConstant(metres * sheet.offset);
-  if (side_of(mesh, sheet, metres) < 0) turn_over(mesh);
   name_surfaces(tags, cells.faces, mesh);
   name_edges(session, part, raw, where, mesh);
+  if (sheet.outward.empty() && mesh.node_set("free_edges").empty())
+    warn(fmt::format(
+        "{}: the faces enclose a volume, of which each is taken for sheet: of a solid of "
+        "sheet (STEP, BREP) one side would be",
+        where));
   check_structure(mesh, "mesh");
   result.certificate = certify_mesh(mesh, result.quality);
   result.certificate.predicted_cells = predicted;

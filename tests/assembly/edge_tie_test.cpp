@@ -113,18 +113,36 @@ TEST(EdgeTie, ABoltHasASlaveAlways) {
   EXPECT_NE(text.find("bolt[0].slave: "), std::string::npos) << text;
 }
 
-TEST(EdgeTie, WideCellsOfTheSolidAreSaid) {
+/// The warnings of a model.
+std::vector<std::string> warnings_of(const mesh::Mesh& mesh, const std::string& toml) {
   std::vector<std::string> warnings;
   set_log_sink([&](bool warning, const std::string& text) {
     if (warning) warnings.push_back(text);
   });
-  build(walls_on_block({{0.01, 0.03}, {0.09, 0.03}}, 8, 4), wall());
+  build(mesh, toml);
   set_log_sink({});
-  ASSERT_EQ(warnings.size(), 1U);
+  return warnings;
+}
+
+TEST(EdgeTie, NodesThatStandOnNothingAreSaid) {
+  // Nodes at -40, -20, 0, ... 120 mm of a block from 0 to 100.
+  const std::vector<std::string> warnings =
+      warnings_of(walls_on_block({{-0.04, 0.03}, {0.12, 0.03}}, 8, 4), wall());
+  ASSERT_EQ(warnings.size(), 2U);
   EXPECT_NE(
-      warnings[0].find("weld: the cells of z1 at the edge are 0.0122 m wide, of a sheet 0.002 "
-                       "m thick: beyond three thicknesses the foot is too stiff"),
+      warnings[0].find("weld: 3 of 9 nodes of the edge foot are not tied: they do not stand on "
+                       "z1 within 0.001 m"),
       std::string::npos)
+      << warnings[0];
+}
+
+TEST(EdgeTie, WideCellsOfTheSolidAreSaid) {
+  const std::vector<std::string> warnings =
+      warnings_of(walls_on_block({{0.01, 0.03}, {0.09, 0.03}}, 8, 4), wall());
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("weld: the cells of z1 at the edge are 0.012 m wide, of a sheet 0.002 "
+                             "m thick: beyond three thicknesses the foot is too stiff"),
+            std::string::npos)
       << warnings[0];
 }
 

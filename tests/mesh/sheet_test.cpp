@@ -105,6 +105,39 @@ TEST(Sheet, SolidOfConstantThicknessIsMeshedFromItsOuterSide) {
   EXPECT_NEAR(area, 1e-6 * 2 * kPi * 50 * 200, 1e-3 * area * 10);
 }
 
+TEST(Sheet, SharpBendsAreOfASideToo) {
+  // A box of 3 mm sheet without fillets, open above, walls ten thicknesses high.
+  const Folder folder;
+  write_part(folder / "box.step", [](GmshSession& session) {
+    session.cut({session.box({0, 0, 0}, {120, 100, 30})}, {session.box({3, 3, 3}, {117, 97, 40})});
+  });
+  const Mesh mesh = mesh_toml(sheet_of(folder / "box.step")).part.mesh;
+  EXPECT_NEAR(integrate(mesh, mesh.surface("skin")).area, 1e-6 * (12000 + 440 * 30), 1e-12);
+  EXPECT_NEAR(area_vector(mesh, "skin").z(), -0.012, 1e-12);
+  EXPECT_EQ(mesh.shells[0].offset(0), -1.5e-3);
+}
+
+TEST(Sheet, EachPieceHasTheOutwardSideOfItsSolid) {
+  // Tops and sides of two blocks that do not touch; gmsh may turn the faces of one the other way.
+  const Folder folder;
+  write_part(folder / "two.step", [](GmshSession& session) {
+    session.box({0, 0, 0}, {60, 50, 40});
+    session.rotate({session.box({100, 0, 0}, {160, 50, 40})}, {130, 25, 20}, {1, 0, 0}, 180);
+  });
+  const Mesh mesh = mesh_toml(sheet_of(folder / "two.step",
+                                       "thickness = 1\nside = 'outer'\n[sheet.faces]\n"
+                                       "box = { min = [-1, -1, -1], max = [200, 60, 60] }"))
+                        .part.mesh;
+  Vector3d middle = 1e-3 * Vector3d(30, 25, 20);
+  for (const ShellBlock& block : mesh.shells)
+    for (const auto& cell : block.nodes.rowwise()) {
+      const Vector3d a = mesh.nodes.row(cell(0)), b = mesh.nodes.row(cell(1)),
+                     c = mesh.nodes.row(cell(2));
+      middle.x() = a.x() < 0.08 ? 0.03 : 0.13;  // of its block
+      EXPECT_GT((b - a).cross(c - a).dot(a - middle), 0.0);
+    }
+}
+
 TEST(Sheet, HardU8_SolidsThatAreNoSheetAreRefusedWithThePlace) {
   const Folder folder;
   const auto boxes = [](const Vector3d& min, const Vector3d& max) {

@@ -94,7 +94,7 @@ class Rib(unittest.TestCase):
     def test_hardU10_a_solid_twenty_times_coarser(self):
         off, said = self.off(2, 6, 40)
         self.assertTrue((np.abs(off) < 3.0).all(), off)
-        self.assertIn("the cells of TOP at the edge are 0.0224 m wide, of a sheet 0.002 m thick", said)
+        self.assertIn("the cells of TOP at the edge are 0.01 m wide, of a sheet 0.002 m thick", said)
 
     def test_hardU10_a_solid_twenty_times_finer(self):
         # The rib of two cells bends as such a rib does; its foot is neither a hinge nor loose.

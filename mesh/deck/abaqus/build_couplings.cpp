@@ -229,25 +229,32 @@ void expect_coupling_done(const Model& model, const Card* open) {
   model.source.fail(open->origin(), "*COUPLING: expected *KINEMATIC or *DISTRIBUTING after it");
 }
 
-void read_tie(Model& model, size_t use, const Card& card) {
-  const Keyword& keyword = card.keyword();
-  keyword.allow({"NAME", "POSITIONTOLERANCE", "ADJUST", "TYPE", "NOROTATION", "NOTHICKNESS"},
-                model.source, model.ignore);
-  if (card.size() != 1) {
-    model.source.fail(card.origin(), fmt::format("*TIE: found {} data lines, expected one: slave, "
-                                                 "master",
-                                                 card.size()));
-  }
-  const Fields fields = card.line(0, model.source);
+/// The only data line of a card.
+Fields only_line(const Model& model, const Card& card, const char* expected) {
+  if (card.size() != 1)
+    model.source.fail(card.origin(), fmt::format("{}: found {} data lines, expected one: {}",
+                                                 card.keyword().name, card.size(), expected));
+  return card.line(0, model.source);
+}
+
+/// A tie with its name and tolerance.
+Tie begin_tie(const Model& model, const Card& card, const char* name_parameter) {
+  const std::string* name = card.keyword().find(name_parameter);
   Tie tie;
-  const std::string* name = keyword.find("NAME");
   tie.name = name != nullptr ? *name : fmt::format("tie_{}", model.deck.ties.size() + 1);
   tie.where = model.source.where(card.origin());
+  if (const std::string* tolerance = card.keyword().find("POSITIONTOLERANCE"))
+    tie.distance = Fields(*tolerance, model.source, card.origin()).number(0, "POSITION TOLERANCE");
+  return tie;
+}
+
+void read_tie(Model& model, size_t use, const Card& card) {
+  card.keyword().allow({"NAME", "POSITIONTOLERANCE", "ADJUST", "TYPE", "NOROTATION", "NOTHICKNESS"},
+                       model.source, model.ignore);
+  const Fields fields = only_line(model, card, "slave, master");
+  Tie tie = begin_tie(model, card, "NAME");
   tie.slave = surface_named(model, use, fields.word(0, "slave surface"), fields.origin());
   tie.master = surface_named(model, use, fields.word(1, "master surface"), fields.origin());
-  if (const std::string* tolerance = keyword.find("POSITIONTOLERANCE")) {
-    tie.distance = Fields(*tolerance, model.source, card.origin()).number(0, "POSITION TOLERANCE");
-  }
   model.deck.ties.push_back(std::move(tie));
 }
 
@@ -269,23 +276,12 @@ std::string edge_set(Model& model, size_t use, const Fields& fields, const std::
 
 // The influence distance of Abaqus is the footprint, as wide as the sheet is thick.
 void read_shell_to_solid(Model& model, size_t use, const Card& card) {
-  const Keyword& keyword = card.keyword();
-  keyword.allow({"CONSTRAINTNAME", "INFLUENCEDISTANCE", "POSITIONTOLERANCE"}, model.source,
-                model.ignore);
-  if (card.size() != 1)
-    model.source.fail(card.origin(),
-                      fmt::format("*SHELL TO SOLID COUPLING: found {} data lines, expected one: "
-                                  "surface of the shell's edge, surface of the solid",
-                                  card.size()));
-  const Fields fields = card.line(0, model.source);
-  Tie tie;
-  const std::string* name = keyword.find("CONSTRAINTNAME");
-  tie.name = name != nullptr ? *name : fmt::format("tie_{}", model.deck.ties.size() + 1);
-  tie.where = model.source.where(card.origin());
-  tie.master = surface_named(model, use, fields.word(1, "solid surface"), fields.origin());
+  card.keyword().allow({"CONSTRAINTNAME", "INFLUENCEDISTANCE", "POSITIONTOLERANCE"}, model.source,
+                       model.ignore);
+  const Fields fields = only_line(model, card, "surface of the shell's edge, surface of the solid");
+  Tie tie = begin_tie(model, card, "CONSTRAINTNAME");
   tie.edge = edge_set(model, use, fields, tie.name);
-  if (const std::string* tolerance = keyword.find("POSITIONTOLERANCE"))
-    tie.distance = Fields(*tolerance, model.source, card.origin()).number(0, "POSITION TOLERANCE");
+  tie.master = surface_named(model, use, fields.word(1, "solid surface"), fields.origin());
   model.deck.ties.push_back(std::move(tie));
 }
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Edges of sheet.
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/mesh.hpp"
+
+namespace clatter::mesh {
+
+/// A side of a linear shell, from one of its nodes to the next.
+struct ShellSide {
+  size_t block = 0;
+  Eigen::Index cell = 0, from = 0;
+  int32_t a = 0, b = 0;  // its nodes
+};
+
+/// The sides that one shell alone has, by their nodes.
+std::vector<ShellSide> free_edges(const std::vector<ShellBlock>& shells);
+
+}  // namespace clatter::mesh
