@@ -118,6 +118,10 @@ void MumpsFactor::Impl::use_disk() {
                     path.size(), sizeof(data.ooc_tmpdir)));
   std::copy_n(path.c_str(), path.size() + 1, data.ooc_tmpdir);
   std::copy_n(prefix.c_str(), prefix.size() + 1, data.ooc_prefix);
+  // A buffer that the rank writes itself. The default of MUMPS, 4, leaves that to a thread, which
+  // ends when a disk is full, while the rank may wait for it without end (mumps_io_thread.c, 5.5).
+  constexpr int kWriteStrategy = 99;
+  data.keep[kWriteStrategy - 1] = 3;
 }
 
 void MumpsFactor::Impl::factorise_all() {

@@ -24,8 +24,17 @@ def command(name, count, *arguments):
 
 
 def finish(words, folder, **environment):
-    """Runs a command of several processes to its end; returns the finished process with its output."""
-    return subprocess.run(words, cwd=folder, text=True, capture_output=True, timeout=300, env={**ENVIRONMENT, **environment})
+    """Runs a command of several processes to its end; returns the finished process with its output. One that does not end is
+    ended with its ranks: mpirun alone would leave them."""
+    with subprocess.Popen(words, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          env={**ENVIRONMENT, **environment}) as process:
+        try:
+            output, errors = process.communicate(timeout=300)
+        except subprocess.TimeoutExpired:
+            process.terminate()  # which mpirun passes on
+            process.communicate(timeout=60)
+            raise
+    return subprocess.CompletedProcess(words, process.returncode, output, errors)
 
 
 def run(name, count, *arguments, folder, **environment):
