@@ -49,16 +49,16 @@ void add_shells(MassMoments& moments, const mesh::Mesh& mesh,
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   for (size_t b = 0; b < mesh.shells.size(); ++b) {
     const int32_t region = mesh.shells[b].region;
-    const double density = materials[region].density;
     for_each_shell_point(
         mesh, mesh.shells[b], directors[b], sections[region], [&](const ShellPoint& point) {
-          const double dm = (density * point.thickness + sections[region].area_mass) * point.area;
-          const double rotary = density * std::pow(point.thickness, 3) / 12.0 * point.area;
-          const Eigen::Vector3d arm = point.at - about;
-          mass += dm;
-          first += dm * arm;
-          second +=
-              dm * arm * arm.transpose() + rotary * point.director * point.director.transpose();
+          const fe::ShellMass of =
+              fe::mass_of(sections[region], materials[region], point.thickness);
+          const Eigen::Vector3d arm = point.at - about, &up = point.director;
+          mass += point.area * of.total;
+          first += point.area * (of.total * arm + of.moment * up);
+          second += point.area * (of.total * arm * arm.transpose() +
+                                  of.moment * (arm * up.transpose() + up * arm.transpose()) +
+                                  of.rotary * up * up.transpose());
         });
   }
   if (mass == 0.0) return;

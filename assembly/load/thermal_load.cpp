@@ -32,11 +32,10 @@ Eigen::VectorXd shell_thermal_load(const PartData& part, const Eigen::VectorXd& 
     const mesh::ShellBlock& block = mesh.shells[b];
     const fe::Material& material = part.recipe.materials.at(block.region);
     const fe::ShellSection& section = part.recipe.sections.at(block.region);
-    if (material.expansion.isZero(0.0)) continue;
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-      const Eigen::VectorXd cell =
-          fe::shell_thermal_force(fe::shell_cell(mesh, block, c, directors[b], section, material),
-                                  material.expansion(0) * dT(block.nodes.row(c)));
+      const fe::ShellCell sheet = fe::shell_cell(mesh, block, c, directors[b], section, material);
+      if (!sheet.stiffness.expands()) break;
+      const Eigen::VectorXd cell = fe::shell_thermal_force(sheet, dT(block.nodes.row(c)));
       for (Eigen::Index a = 0; a < block.nodes.cols(); ++a) {
         const int32_t node = block.nodes(c, a);
         force.segment<3>(3 * node) += cell.segment<3>(6 * a);

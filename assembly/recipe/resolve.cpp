@@ -10,61 +10,42 @@
 
 namespace clatter::assembly {
 
+void Resolver::name_materials(const recipe::File& file) {
+  for (const auto& [name, one] : file.materials) {
+    fe::MaterialTable table = one.material;
+    fe::finish(one.source, table);
+    if (!table.system.empty()) table.material.axes = names_.axes(one.source, table.system);
+    named_materials_[name] = table.material;
+  }
+}
+
+/// Of each region; of layers that of the first one.
 std::vector<fe::Material> Resolver::materials(const recipe::File& file) const {
   const std::vector<std::string>& regions = names_.mesh.regions;
   std::vector<bool> found(regions.size(), false);
   std::vector<fe::Material> materials(regions.size());
-  for (const auto& [name, one] : file.materials) {
-    fe::MaterialTable table = one.material;
-    fe::finish(one.source, table);
-    for (const std::string& region : one.regions) {
-      const int32_t index = names_.region(one.source, "regions", region);
-      if (found[index])
-        one.source.fail("regions",
-                        fmt::format("found \"{}\" in two materials, expected one", region));
-      found[index] = true;
-      materials[index] = table.material;
-      if (!table.system.empty()) materials[index].axes = names_.axes(one.source, table.system);
-    }
-  }
+  const auto give = [&](const keys::Source& table, const std::string& region,
+                        const fe::Material& material) {
+    const int32_t index = names_.region(table, "regions", region);
+    if (found[index])
+      table.fail("regions", fmt::format("found \"{}\" in two materials, expected one", region));
+    found[index] = true;
+    materials[index] = material;
+  };
+  for (const auto& [name, one] : file.materials)
+    for (const std::string& region : one.regions)
+      give(one.source, region, named_materials_.at(name));
+  for (const recipe::Shell& shell : file.shells)
+    for (const std::string& region : shell.regions)
+      if (!shell.layers.empty())
+        give(shell.source, region,
+             named_material(shell.layers[0].source, "material", shell.layers[0].material));
   for (size_t r = 0; r < found.size(); ++r)
     if (!found[r])
       file.source.fail("material",
                        fmt::format("found none for region \"{}\", expected one for each of: {}",
                                    regions[r], fmt::join(regions, ", ")));
   return materials;
-}
-
-/// Of regions with shells, whose materials are isotropic.
-std::vector<fe::ShellSection> Resolver::sections(const recipe::File& file) const {
-  const mesh::Mesh& mesh = names_.mesh;
-  std::vector<bool> shells(mesh.regions.size(), false), given = shells;
-  for (const mesh::ShellBlock& block : mesh.shells) shells[block.region] = true;
-  std::vector<fe::ShellSection> sections(mesh.regions.size());
-  for (const recipe::Shell& shell : file.shells)
-    for (const std::string& name : shell.regions) {
-      const int32_t region = names_.region(shell.source, "regions", name);
-      if (!shells[region])
-        shell.source.fail("regions",
-                          fmt::format("found \"{}\", a region of solids, expected shells", name));
-      if (given[region])
-        shell.source.fail("regions",
-                          fmt::format("found \"{}\" in two [[shell]], expected one", name));
-      given[region] = true;
-      sections[region] = shell.section;
-    }
-  for (const mesh::ShellBlock& block : mesh.shells) {
-    const std::string& region = mesh.regions[block.region];
-    if (block.thickness.size() == 0 && !(sections[block.region].thickness > 0.0))
-      file.source.fail("shell", fmt::format("found no thickness of region \"{}\", expected "
-                                            "[[shell]] with regions = [\"{}\"] and thickness",
-                                            region, region));
-    if (!materials_[block.region].is_isotropic())
-      file.source.fail("material", fmt::format("found none that is isotropic for region \"{}\", "
-                                               "expected E and nu: it has shells",
-                                               region));
-  }
-  return sections;
 }
 
 /// Mid-side nodes without a cell of their own need straight edges.
@@ -101,6 +82,7 @@ Recipe Resolver::read(const Config& config) {
 Recipe Resolver::resolve(const recipe::File& file) {
   metre_ = file.metre;
   for (const auto& [name, table] : file.systems) names_.systems[name] = table.axes;
+  name_materials(file);
   materials_ = materials(file);
   // In this order: later tables name earlier ones.
   Recipe out;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A fe.toml on its mesh, table by table: names are looked up and values checked that need the mesh.
-// resolve_beams.cpp, resolve_joints.cpp, resolve_sets.cpp, resolve_heat.cpp and resolve_loads.cpp
-// each have some tables.
+// resolve_shells.cpp, resolve_beams.cpp, resolve_joints.cpp, resolve_sets.cpp, resolve_heat.cpp and
+// resolve_loads.cpp each have some tables.
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "assembly/recipe/point_table.hpp"
@@ -31,8 +33,14 @@ class Resolver {
     return specs;
   }
 
+  void name_materials(const recipe::File& file);
+  const fe::Material& named_material(const Source& table, std::string_view key,
+                                     const std::string& name) const;
   std::vector<fe::Material> materials(const recipe::File& file) const;
   std::vector<fe::ShellSection> sections(const recipe::File& file) const;
+  fe::ShellSection section(const recipe::Shell& shell) const;
+  void check_sheet(const recipe::File& file, const mesh::ShellBlock& block,
+                   const fe::ShellSection& section) const;
   void check_hanging(const recipe::File& file) const;
   PointSpec point(const recipe::Point& point, size_t number);
   SupportSpec support(const recipe::Support& support, size_t number);
@@ -78,7 +86,8 @@ class Resolver {
   RecipeNames names_;
   double metre_ = 1.0;                        // of CSV files [m]
   std::vector<std::filesystem::path> files_;  // read in addition
-  std::vector<fe::Material> materials_;       // of the regions
+  std::map<std::string, fe::Material> named_materials_;
+  std::vector<fe::Material> materials_;  // of the regions
 };
 
 }  // namespace clatter::assembly

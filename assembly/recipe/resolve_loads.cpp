@@ -125,18 +125,9 @@ void Resolver::check_field(const keys::Source& table, const std::string& name,
 /// A rise everywhere or by regions, or temperatures above a reference: of a field of the mesh, a
 /// [[heat]], or a table.
 void Resolver::finish_temperature(LoadSpec& load) {
-  if (std::ranges::none_of(materials_,
-                           [](const fe::Material& one) { return !one.expansion.isZero(0.0); }))
+  if (std::ranges::none_of(named_materials_,
+                           [](const auto& one) { return !one.second.expansion.isZero(0.0); }))
     load.source.fail("kind", "found temperature, no material has an expansion");
-  for (const mesh::ShellBlock& block : names_.mesh.shells)
-    if ((materials_[block.region].expansion.head<3>().array() !=
-         materials_[block.region].expansion(0))
-            .any())
-      load.source.fail("kind",
-                       fmt::format("found temperature and the shells of region \"{}\", whose "
-                                   "material expands differently along its axes, expected one "
-                                   "value of expansion",
-                                   names_.mesh.regions[block.region]));
   if (!load.rises.empty()) {
     load.node_rises = rise_of_regions(load);
   } else if (!load.heat.empty()) {

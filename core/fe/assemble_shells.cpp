@@ -46,14 +46,30 @@ bool moves_rigidly(const std::vector<int32_t>& rigid_of_node, const mesh::ShellB
 }
 
 [[noreturn]] void refuse_shell(const mesh::Mesh& mesh, const mesh::ShellBlock& block,
-                               Eigen::Index cell) {
+                               Eigen::Index cell, const std::string& why) {
   const Eigen::RowVector3d at = mesh.nodes.row(block.nodes(cell, 0));
-  throw InputError(fmt::format(
-      "mesh '{}': region {}: shell {} at ({:.6g}, {:.6g}, {:.6g}) m: found it folded, concave or "
-      "without area, expected a convex {}",
-      mesh.name, mesh.regions[block.region],
-      block.ids.empty() ? static_cast<int32_t>(cell) + 1 : block.ids[cell], at(0), at(1), at(2),
-      block.type == mesh::FaceType::kTri3 ? "triangle" : "quadrilateral"));
+  throw InputError(fmt::format("mesh '{}': region {}: shell {} at ({:.6g}, {:.6g}, {:.6g}) m: {}",
+                               mesh.name, mesh.regions[block.region],
+                               block.ids.empty() ? static_cast<int32_t>(cell) + 1 : block.ids[cell],
+                               at(0), at(1), at(2), why));
+}
+
+[[noreturn]] void refuse_shape(const mesh::Mesh& mesh, const mesh::ShellBlock& block,
+                               Eigen::Index cell) {
+  refuse_shell(mesh, block, cell,
+               fmt::format("found it folded, concave or without area, expected a convex {}",
+                           block.type == mesh::FaceType::kTri3 ? "triangle" : "quadrilateral"));
+}
+
+/// Of materials with directions, direction 1 has a projection on each cell.
+void check_directions(const mesh::Mesh& mesh, const mesh::ShellBlock& block, Eigen::Index cell,
+                      const ShellCell& sheet) {
+  constexpr double kAlong = 0.1;  // sine of the angle to the normal: 6 degrees
+  const Eigen::Vector3d normal = sheet.directors.colwise().sum().normalized();
+  if (normal.cross(sheet.axis).norm() > kAlong * sheet.axis.norm()) return;
+  refuse_shell(mesh, block, cell,
+               "direction 1 of its material is along its normal, expected one along the sheet: "
+               "system of its [[shell]]");
 }
 
 SparseMatrix from_entries(int64_t size, const Entries& entries) {
@@ -85,6 +101,11 @@ ShellCell shell_cell(const mesh::Mesh& mesh, const mesh::ShellBlock& block, Eige
   }
   out.stiffness = stiffness_of(section, material, out.thickness);
   out.offset = block.offset.size() > 0 ? block.offset(cell) : section.offset;
+  if (block.axis.size() > 0)
+    out.axis = block.axis.row(cell).transpose();
+  else if (section.axes)
+    out.axis =
+        section.axes->at(mesh.nodes(block.nodes.row(cell), Eigen::all).colwise().mean()).col(0);
   return out;
 }
 
@@ -101,18 +122,21 @@ NodalMatrices assemble_shells(const mesh::Mesh& mesh, const std::vector<Material
   std::array<char, kShellsTogether> valid{};
   for (size_t b = 0; b < mesh.shells.size(); ++b) {
     const mesh::ShellBlock& block = mesh.shells[b];
+    const ShellSection& section = sections[block.region];
+    const Material& material = materials[block.region];
+    const bool turns = section.has_directions(material);
     for (Eigen::Index first = 0; first < block.nodes.rows(); first += kShellsTogether) {
       const Eigen::Index count = std::min(kShellsTogether, block.nodes.rows() - first);
       parallel_pieces(count, [&](int64_t begin, int64_t end) {
-        for (int64_t c = begin; c < end; ++c)
-          valid[c] = compute_shell(shell_cell(mesh, block, first + c, directors[b],
-                                              sections[block.region], materials[block.region]),
-                                   form, chunk[c])
-                         ? 1
-                         : 0;
+        for (int64_t c = begin; c < end; ++c) {
+          const ShellCell cell =
+              shell_cell(mesh, block, first + c, directors[b], section, material);
+          if (turns) check_directions(mesh, block, first + c, cell);
+          valid[c] = compute_shell(cell, form, chunk[c]) ? 1 : 0;
+        }
       });
       for (Eigen::Index c = 0; c < count; ++c) {
-        if (valid[c] == 0) refuse_shell(mesh, block, first + c);
+        if (valid[c] == 0) refuse_shape(mesh, block, first + c);
         const std::vector<int32_t> rows = shell_rows(block, first + c, ids);
         if (!moves_rigidly(rigid_of_node, block, first + c)) add_lower(chunk[c].stiffness, rows, K);
         add_lower(chunk[c].mass, rows, M);

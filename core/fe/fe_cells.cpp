@@ -38,6 +38,10 @@ constexpr std::array<std::pair<const char*, double ShellSection::*>, 5> kSection
      {"shear", &ShellSection::shear},
      {"area_mass", &ShellSection::area_mass}}};
 
+constexpr std::array<std::pair<const char*, std::optional<Material> ShellSection::*>, 2>
+    kOtherMaterials = {{{"bending_material", &ShellSection::bending_material},
+                        {"shear_material", &ShellSection::shear_material}}};
+
 template <typename Value, size_t N>
 std::string name_of(const Names<Value, N>& names, Value value) {
   for (const auto& [name, known] : names)
@@ -68,6 +72,19 @@ Eigen::MatrixXd read_matrix(const H5File& file, const std::string& dataset, Eige
   return values;
 }
 
+void write_axes(H5File& file, const std::string& group, const Axes& axes) {
+  file.set(group + "/axes", "kind", name_of(kAxes, axes.kind));
+  file.write(group + "/axes/origin", Eigen::VectorXd(axes.origin));
+  file.write(group + "/axes/frame", Eigen::MatrixXd(axes.frame));
+}
+
+std::optional<Axes> read_axes(const H5File& file, const std::string& group) {
+  if (!file.has(group + "/axes")) return {};
+  return Axes{value_of(file, group + "/axes", "kind", kAxes),
+              read_matrix(file, group + "/axes/origin", 3, 1),
+              read_matrix(file, group + "/axes/frame", 3, 3)};
+}
+
 void write_material(H5File& file, const std::string& group, const Material& material) {
   file.set(group, "rho", material.density);
   if (material.is_isotropic()) {
@@ -79,11 +96,7 @@ void write_material(H5File& file, const std::string& group, const Material& mate
   file.write(group + "/expansion", Eigen::VectorXd(material.expansion));
   if (!material.conductivity.isZero(0.0))
     file.write(group + "/conductivity", Eigen::VectorXd(material.conductivity));
-  if (material.axes) {
-    file.set(group + "/axes", "kind", name_of(kAxes, material.axes->kind));
-    file.write(group + "/axes/origin", Eigen::VectorXd(material.axes->origin));
-    file.write(group + "/axes/frame", Eigen::MatrixXd(material.axes->frame));
-  }
+  if (material.axes) write_axes(file, group, *material.axes);
   for (const auto& [key, member] : kChoices)
     file.set(group, key, name_of(kIntegrations, material.integration.*member));
 }
@@ -106,11 +119,7 @@ Material read_material(const H5File& file, const std::string& group) {
   material.expansion = read_matrix(file, group + "/expansion", 6, 1);
   if (file.has(group + "/conductivity"))
     material.conductivity = read_matrix(file, group + "/conductivity", 3, 1);
-  if (file.has(group + "/axes")) {
-    material.axes = Axes{value_of(file, group + "/axes", "kind", kAxes),
-                         read_matrix(file, group + "/axes/origin", 3, 1),
-                         read_matrix(file, group + "/axes/frame", 3, 3)};
-  }
+  material.axes = read_axes(file, group);
   for (const auto& [key, member] : kChoices)
     material.integration.*member = value_of(file, group, key, kIntegrations);
   return material;
@@ -122,15 +131,43 @@ void write_sections(H5File& file, const FeCells& cells) {
     const ShellSection& section = cells.sections[block.region];
     const std::string group = fmt::format("sections/{}", block.region);
     for (const auto& [key, member] : kSection) file.set(group, key, section.*member);
+    if (section.axes) write_axes(file, group, *section.axes);
+    for (const auto& [name, other] : kOtherMaterials)
+      if (section.*other) write_material(file, group + "/" + name, *(section.*other));
+    for (size_t k = 0; k < section.layers.size(); ++k) {
+      const std::string layer = fmt::format("{}/layers/{}", group, k);
+      write_material(file, layer, section.layers[k].material);
+      file.set(layer, "thickness", section.layers[k].thickness);
+      file.set(layer, "angle", section.layers[k].angle);
+    }
   }
+}
+
+ShellSection read_section(const H5File& file, const std::string& group) {
+  ShellSection section;
+  for (const auto& [key, member] : kSection) section.*member = file.get_double(group, key);
+  section.axes = read_axes(file, group);
+  for (const auto& [name, other] : kOtherMaterials)
+    if (file.has(group + "/" + name)) section.*other = read_material(file, group + "/" + name);
+  const size_t layers = file.has(group + "/layers") ? file.list(group + "/layers").size() : 0;
+  for (size_t k = 0; k < layers; ++k) {
+    const std::string layer = fmt::format("{}/layers/{}", group, k);
+    section.layers.push_back({read_material(file, layer), file.get_double(layer, "thickness"),
+                              file.get_double(layer, "angle")});
+    if (!(section.layers.back().thickness > 0.0))
+      throw InputError(fmt::format("{}: {}: found thickness = {:g}, expected more than 0",
+                                   file.path().string(), layer, section.layers.back().thickness));
+  }
+  if (layers > 0) section.thickness = 0.0;
+  for (const ShellLayer& layer : section.layers) section.thickness += layer.thickness;
+  return section;
 }
 
 std::vector<ShellSection> read_sections(const H5File& file, size_t regions) {
   std::vector<ShellSection> sections(regions);
   for (size_t r = 0; r < regions; ++r) {
     const std::string group = fmt::format("sections/{}", r);
-    if (!file.has(group)) continue;
-    for (const auto& [key, member] : kSection) sections[r].*member = file.get_double(group, key);
+    if (file.has(group)) sections[r] = read_section(file, group);
   }
   return sections;
 }

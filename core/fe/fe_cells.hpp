@@ -4,7 +4,8 @@
 //   regions, cells/<b>/nodes with attributes type and region, node_ids, materials/<r> (attributes
 //   rho, E and nu or dataset elasticity, expansion, conductivity, axes/, attributes hex8 ... of
 //   integration), shells/<b> likewise, sections/<r> (attributes thickness, offset, bending, shear,
-//   area_mass).
+//   area_mass; axes/, layers/<k>, bending_material and the like, each as materials/<r>, with
+//   attributes thickness and angle of layers).
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace clatter::fe {
 /// Cells on the nodes of the model. No blocks: the model has no cells.
 struct FeCells {
   std::vector<std::string> regions;     // names
-  std::vector<Material> materials;      // one per region
+  std::vector<Material> materials;      // one per region; of layers the first one's
   std::vector<mesh::CellBlock> blocks;  // cells by type and region
   std::vector<mesh::ShellBlock> shells;
   std::vector<ShellSection> sections;  // one per region; of those with shells

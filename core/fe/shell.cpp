@@ -16,6 +16,7 @@ using NodeVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 24, 1>;
 using InnerVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kShellInner, 1>;
 constexpr int kMaxRows = 6 * kShellStrains;  // of all points
 using PointRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxRows, kShellColumns>;
+using Strains = Eigen::Matrix<double, kShellStrains, 1>;
 using PointStrains = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRows, 1>;
 
 template <class Body>
@@ -47,14 +48,31 @@ NodeVector stretch_of(const ShellCell& cell) {
   return u;
 }
 
+/// The same stretch along 1 and 2 per kelvin, which nodes that move by their positions have.
+double even_stretch(const ShellCell& cell) {
+  return 0.5 * (cell.stiffness.stretch(0) + cell.stiffness.stretch(1));
+}
+
+/// The other thermal strains per kelvin where the sheet is `ratio` as thick.
+Strains uneven_strains(const ShellCell& cell, double ratio) {
+  Strains out = Strains::Zero();
+  out.head<3>() = cell.stiffness.stretch;
+  out.head<2>().array() -= even_stretch(cell);
+  out.segment<3>(3) = cell.stiffness.curl / ratio;
+  return out;
+}
+
 /// Thermal strains at all points, by the strains of the DoFs there.
 PointStrains thermal_strains(const ShellTheory& theory, const ShellCell& cell,
-                             const PointRows& strain, const Eigen::VectorXd& warm) {
-  PointStrains out = strain.leftCols(theory.node_columns()).lazyProduct(stretch_of(cell));
+                             const PointRows& strain, const Eigen::VectorXd& dT) {
+  PointStrains out =
+      even_stretch(cell) * strain.leftCols(theory.node_columns()).lazyProduct(stretch_of(cell));
   const mesh::FaceRule& rule = theory.rule();
-  for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
-    out.segment<kShellStrains>(kShellStrains * q) *=
-        mesh::face_shape(cell.type, rule.points.row(q).transpose()).value.dot(warm);
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+    const ShellWeights h = mesh::face_shape(cell.type, rule.points.row(q).transpose()).value;
+    auto at = out.segment<kShellStrains>(kShellStrains * q);
+    at = h.dot(dT) * (at + uneven_strains(cell, ratio_at(cell, h)));
+  }
   return out;
 }
 
@@ -66,7 +84,7 @@ struct Condensed {
   NodeVector force;  // of thermal strains
 };
 
-Condensed condense(const ShellTheory& theory, const ShellCell& cell, const Eigen::VectorXd& warm) {
+Condensed condense(const ShellTheory& theory, const ShellCell& cell, const Eigen::VectorXd& dT) {
   const mesh::FaceRule& rule = theory.rule();
   const Eigen::Index points = rule.weights.size(), n = theory.node_columns(), c = theory.columns();
   PointRows strain, force;
@@ -90,31 +108,34 @@ Condensed condense(const ShellTheory& theory, const ShellCell& cell, const Eigen
   out.inner = -factor.solve(K.bottomLeftCorner(c - n, n));
   out.K = K.topLeftCorner(n, n) + K.topRightCorner(n, c - n).lazyProduct(out.inner);
   out.warm.setZero(c - n);
-  if (warm.size() == 0) return out;
+  if (dT.size() == 0) return out;
   const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kShellColumns, 1> f =
-      force.transpose().lazyProduct(thermal_strains(theory, cell, strain, warm));
+      force.transpose().lazyProduct(thermal_strains(theory, cell, strain, dT));
   out.warm = factor.solve(f.tail(c - n));
   out.force = f.head(n) + out.inner.transpose().lazyProduct(f.tail(c - n));
   return out;
 }
 
-/// int h_i h_j of the mass and of the rotary inertia per area.
+using NodeSquare = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
+
+/// int h_i h_j of ShellMass.
 struct NodalMass {
-  Eigen::MatrixXd mass, rotary;
+  Eigen::MatrixXd total, moment, rotary;
 };
 
 NodalMass nodal_mass(const MidSurface& mid, const ShellCell& cell) {
   const mesh::FaceRule& rule = mesh::face_rule(mid.type);
   const Eigen::Index n = mid.x.rows();
   NodalMass out;
-  out.mass.setZero(n, n);
-  out.rotary.setZero(n, n);
-  const ShellStiffness& s = cell.stiffness;
+  for (Eigen::MatrixXd* m : {&out.total, &out.moment, &out.rotary}) m->setZero(n, n);
+  const ShellMass& of = cell.stiffness.mass;
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
     const SurfacePoint p(mid, rule.points.row(q).transpose());
     const double ratio = ratio_at(cell, p.h), weight = rule.weights(q) * p.area;
-    out.mass += weight * (s.area_mass + ratio * (s.mass - s.area_mass)) * p.h * p.h.transpose();
-    out.rotary += weight * ratio * ratio * ratio * s.rotary * p.h * p.h.transpose();
+    const NodeSquare area = weight * p.h * p.h.transpose();
+    out.total += (of.area_mass + ratio * (of.total - of.area_mass)) * area;
+    out.moment += ratio * ratio * of.moment * area;
+    out.rotary += ratio * ratio * ratio * of.rotary * area;
   }
   return out;
 }
@@ -124,15 +145,17 @@ NodalMass nodal_mass(const MidSurface& mid, const ShellCell& cell) {
 ShellMatrix mass_of(const MidSurface& mid, const ShellCell& cell, MassForm form) {
   NodalMass nodal = nodal_mass(mid, cell);
   if (form == MassForm::kHrz)
-    for (Eigen::MatrixXd* m : {&nodal.mass, &nodal.rotary})
-      if (m->trace() > 0.0) lump_hrz(*m);
+    for (Eigen::MatrixXd* m : {&nodal.total, &nodal.moment, &nodal.rotary})
+      if (m->trace() != 0.0) lump_hrz(*m);
   const Eigen::Index n = mid.x.rows();
   std::array<Eigen::Matrix3d, 4> turned;  // theta x V = turned theta
   for (Eigen::Index i = 0; i < n; ++i) turned[i] = cross_matrix(mid.V.row(i));
   ShellMatrix M = ShellMatrix::Zero(6 * n, 6 * n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
-      M.block<3, 3>(6 * i, 6 * j).diagonal().setConstant(nodal.mass(i, j));
+      M.block<3, 3>(6 * i, 6 * j).diagonal().setConstant(nodal.total(i, j));
+      M.block<3, 3>(6 * i, 6 * j + 3) = nodal.moment(i, j) * turned[j];
+      M.block<3, 3>(6 * i + 3, 6 * j) = nodal.moment(i, j) * turned[i].transpose();
       M.block<3, 3>(6 * i + 3, 6 * j + 3) =
           nodal.rotary(i, j) * turned[i].transpose().lazyProduct(turned[j]);
     }
@@ -165,27 +188,28 @@ bool compute_shell(const ShellCell& cell, MassForm form, ShellMatrices& out) {
 }
 
 ShellStrains shell_strains(const ShellCell& cell, const Eigen::VectorXd& u,
-                           const Eigen::Vector2d& at, const Eigen::VectorXd& warm) {
+                           const Eigen::Vector2d& at, const Eigen::VectorXd& dT) {
   const MidSurface mid(cell);
   NodeVector moved = u;
   for (Eigen::Index i = 0; i < cell.x.rows(); ++i)
     moved.segment<3>(6 * i) +=
         cross_matrix(cell.offset * cell.directors.row(i)) * u.segment<3>(6 * i + 3);
   return with_theory(mid, [&](const ShellTheory& theory) {
-    const Condensed condensed = condense(theory, cell, warm);
+    const Condensed condensed = condense(theory, cell, dT);
     const SurfacePoint p(mid, at);
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kShellColumns, 1> all(theory.columns());
     all << moved, condensed.inner * moved + condensed.warm;
-    if (warm.size() > 0) all.head(moved.size()) -= p.h.dot(warm) * stretch_of(cell);
-    const Eigen::Matrix<double, kShellStrains, 1> e = theory.strain(p) * all;
-    return ShellStrains{e.head<3>(), e.segment<3>(3), e.segment<2>(6), p.axes, ratio_at(cell, p.h)};
+    const double rise = dT.size() > 0 ? p.h.dot(dT) : 0.0, ratio = ratio_at(cell, p.h);
+    all.head(moved.size()) -= rise * even_stretch(cell) * stretch_of(cell);
+    const Strains e = theory.strain(p) * all - rise * uneven_strains(cell, ratio);
+    return ShellStrains{e.head<3>(), e.segment<3>(3), e.segment<2>(6), p.axes, ratio, rise};
   });
 }
 
-Eigen::VectorXd shell_thermal_force(const ShellCell& cell, const Eigen::VectorXd& warm) {
+Eigen::VectorXd shell_thermal_force(const ShellCell& cell, const Eigen::VectorXd& dT) {
   const MidSurface mid(cell);
   return with_theory(mid, [&](const ShellTheory& theory) {
-    Eigen::VectorXd force = condense(theory, cell, warm).force;
+    Eigen::VectorXd force = condense(theory, cell, dT).force;
     for (Eigen::Index i = 0; i < cell.x.rows(); ++i)
       force.segment<3>(6 * i + 3) +=
           cross_matrix(cell.offset * cell.directors.row(i)).transpose() * force.segment<3>(6 * i);

@@ -40,9 +40,10 @@ struct ShellMatrices {
 };
 
 /// The mid-surface has the nodes x_i + offset V_i, which move as u_i + theta_i x (offset V_i).
-/// Where the sheet is `ratio` as thick, A, S and the mass of the material have this factor, B its
-/// square, D and the rotary inertia its cube. The mass is consistent, with the rotary inertia of
-/// theta x V: none about V. kHrz: it has 6 x 6 blocks at the nodes alone.
+/// Where the sheet is `ratio` as thick, A, S and the mass of the material have this factor, B and
+/// the moment of the mass its square, D and the rotary inertia its cube. The mass is consistent,
+/// with the rotary inertia of theta x V: none about V. kHrz: it has 6 x 6 blocks at the nodes
+/// alone.
 /// @return false where the cell is no shell: concave, folded (to a triangle, or a director more
 /// than 60 degrees off the normal), without area, or not finite.
 bool compute_shell(const ShellCell& cell, MassForm form, ShellMatrices& out);
@@ -53,18 +54,22 @@ struct ShellStrains {
   Eigen::Vector2d shear;                // 13, 23
   Eigen::Matrix3d axes;
   double ratio = 1.0;  // of the thickness there
+  double rise = 0.0;   // of the temperature there [K]
 };
 
-/// Those that cause stress, of displacements `u` (6n), also of what the cell has beside its nodes.
+/// Those beside a free sheet's, of displacements `u` (6n), also of what the cell has beside its
+/// nodes.
 /// @param at r, s of the reference cell: -1 to 1 of a quad4; 0 to 1 of a tri3.
-/// @param warm of shell_thermal_force(), or empty.
+/// @param dT of shell_thermal_force(), or empty.
 ShellStrains shell_strains(const ShellCell& cell, const Eigen::VectorXd& u,
-                           const Eigen::Vector2d& at, const Eigen::VectorXd& warm = {});
+                           const Eigen::Vector2d& at, const Eigen::VectorXd& dT = {});
 
-/// Nodal forces (6n) of thermal strains with all nodes fixed: int B^T C (sum h_i warm_i) B x dA.
-/// B x are the strains of nodes that move by their positions: 1 1 0 of the membrane of a flat cell.
-/// With the same in a warped cell, or one beside its nodes, free expansion causes no stress.
-/// @param warm alpha dT of each node (n) [1], uniform through the thickness.
-Eigen::VectorXd shell_thermal_force(const ShellCell& cell, const Eigen::VectorXd& warm);
+/// Nodal forces (6n) of thermal strains with all nodes fixed: int B^T C (sum h_i dT_i) (a B x + r)
+/// dA. B x are the strains of nodes that move by their positions: 1 1 0 of the membrane of a flat
+/// cell. With the same in a warped cell, or one beside its nodes, free expansion causes no stress.
+/// a is the mean stretch of a free sheet per kelvin, r the rest of its strains: 0 of an isotropic
+/// material.
+/// @param dT temperature rise of each node (n) [K], uniform through the thickness.
+Eigen::VectorXd shell_thermal_force(const ShellCell& cell, const Eigen::VectorXd& dT);
 
 }  // namespace clatter::fe

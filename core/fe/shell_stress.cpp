@@ -21,14 +21,17 @@ struct Mean {
   int cells = 0;
 };
 
-/// The stress at the distance `z` from the mid-surface, in the global frame.
-Voigt stress_at(const ShellStrains& strains, const Material& material, double z) {
-  const Eigen::Vector3d e = strains.membrane + z * strains.curvature;
-  const double nu = material.poisson, factor = material.youngs / (1.0 - nu * nu);
+/// The stress at the distance `z` from the mid-surface in a layer, in the global frame.
+Voigt stress_at(const ShellStrains& strains, const ShellStiffness& sheet, const SheetLaw& law,
+                double z) {
+  const Eigen::Vector3d free = sheet.stretch + z / strains.ratio * sheet.curl;
+  const Eigen::Vector3d e =
+      strains.membrane + z * strains.curvature + strains.rise * (free - law.expansion);
+  const Eigen::Vector3d stress = law.plane * e;
   Eigen::Matrix3d local = Eigen::Matrix3d::Zero();
-  local(0, 0) = factor * (e(0) + nu * e(1));
-  local(1, 1) = factor * (e(1) + nu * e(0));
-  local(0, 1) = local(1, 0) = material.mu() * e(2);
+  local(0, 0) = stress(0);
+  local(1, 1) = stress(1);
+  local(0, 1) = local(1, 0) = stress(2);
   const Eigen::Matrix3d s = strains.axes * local * strains.axes.transpose();
   Voigt out;
   out << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(2, 0);
@@ -37,13 +40,14 @@ Voigt stress_at(const ShellStrains& strains, const Material& material, double z)
 
 using Corners = std::array<std::pair<Voigt, Voigt>, 4>;  // outer, inner
 
-/// @param warm alpha dT of the nodes, or empty.
-Corners corner_stress(const ShellCell& cell, const Material& material, const Eigen::VectorXd& u,
-                      const Eigen::VectorXd& warm) {
+/// @param dT of the nodes, or empty.
+Corners corner_stress(const ShellCell& cell, const FaceLaws& laws, const Eigen::VectorXd& u,
+                      const Eigen::VectorXd& dT) {
   const auto both = [&](const Eigen::Vector2d& at) {
-    const ShellStrains strains = shell_strains(cell, u, at, warm);
+    const ShellStrains strains = shell_strains(cell, u, at, dT);
     const double z = 0.5 * cell.thickness * strains.ratio;
-    return std::pair(stress_at(strains, material, z), stress_at(strains, material, -z));
+    return std::pair(stress_at(strains, cell.stiffness, laws.outer, z),
+                     stress_at(strains, cell.stiffness, laws.inner, -z));
   };
   Corners out;
   if (cell.type == mesh::FaceType::kTri3) {
@@ -126,13 +130,13 @@ std::vector<RegionStress> shell_stress(const RowMatrix& nodes, const FeCells& ce
   for (size_t b = 0; b < cells.shells.size(); ++b) {
     const mesh::ShellBlock& block = cells.shells[b];
     const Material& material = cells.materials[block.region];
+    const ShellSection& section = cells.sections[block.region];
+    const FaceLaws laws = face_laws(section, material);
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-      const ShellCell cell =
-          shell_cell(mesh, block, c, directors[b], cells.sections[block.region], material);
-      Eigen::VectorXd warm;
-      if (dT.size() > 0) warm = material.expansion(0) * dT(block.nodes.row(c));
-      const Corners corners =
-          corner_stress(cell, material, moved(block, c, u, turning, theta), warm);
+      const ShellCell cell = shell_cell(mesh, block, c, directors[b], section, material);
+      Eigen::VectorXd rise;
+      if (dT.size() > 0) rise = dT(block.nodes.row(c));
+      const Corners corners = corner_stress(cell, laws, moved(block, c, u, turning, theta), rise);
       for (Eigen::Index a = 0; a < block.nodes.cols(); ++a)
         add(regions[block.region][block.nodes(c, a)], cell.directors.row(a).transpose(),
             corners[a]);

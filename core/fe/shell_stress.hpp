@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Stresses at the two faces of shells: sigma = C (e +- t/2 k) under plane stress, e and k without
-// thermal strains.
+// thermal strains, C of the layer there.
 //
 // Strains of a quadrilateral are evaluated at its 2 x 2 points and extrapolated to the corners,
 // those of a triangle are taken at its centre. At a node they are averaged over the cells of one

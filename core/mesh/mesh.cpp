@@ -66,6 +66,11 @@ void check_shells(const Mesh& mesh, const std::string& where) {
     if (block.offset.size() > 0 &&
         (block.offset.size() != block.nodes.rows() || !block.offset.allFinite()))
       fail(fmt::format("{} offsets", block.offset.size()), "one for each cell");
+    if (block.axis.size() > 0 &&
+        (block.axis.rows() != block.nodes.rows() || block.axis.cols() != 3 ||
+         !block.axis.allFinite() || !(block.axis.rowwise().norm().minCoeff() > 0.0)))
+      fail(fmt::format("{} x {} numbers of axes", block.axis.rows(), block.axis.cols()),
+           "a direction for each cell");
   }
 }
 

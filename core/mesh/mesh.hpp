@@ -31,6 +31,8 @@ struct ShellBlock {
   RowMatrix thickness;       // of each cell at its nodes [m]; empty: that of the region
   Eigen::VectorXd offset;    // of each cell: from its nodes to its mid-surface, outward [m]; or
                              // empty: that of the region
+  RowMatrix axis;            // of each cell (cells x 3): direction 1 of its material, once it is
+                             // projected; or empty: that of the region
 };
 
 /// Faces of one type.

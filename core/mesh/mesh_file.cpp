@@ -42,6 +42,7 @@ ShellBlock read_shell_block(const H5File& file, const std::string& group,
   read_block(file, group, block);
   if (file.has(group + "/thickness")) block.thickness = file.read_rows(group + "/thickness");
   if (file.has(group + "/offset")) block.offset = file.read_vector(group + "/offset");
+  if (file.has(group + "/axis")) block.axis = file.read_rows(group + "/axis");
   return block;
 }
 
@@ -86,6 +87,7 @@ void write_shells(H5File& file, const std::vector<ShellBlock>& shells) {
     write_block(file, shells[b], group);
     if (shells[b].thickness.size() > 0) file.write(group + "/thickness", shells[b].thickness);
     if (shells[b].offset.size() > 0) file.write(group + "/offset", shells[b].offset);
+    if (shells[b].axis.size() > 0) file.write(group + "/axis", shells[b].axis);
   }
 }
 

@@ -61,7 +61,8 @@ Neighbours neighbours_of(const std::vector<ShellBlock>& shells) {
 /// Which cells to turn.
 class Sides {
  public:
-  explicit Sides(const Neighbours& all) : all_(all), reached_(all.size()), turned_(all.size()) {}
+  Sides(const Neighbours& all, const std::vector<bool>& kept)
+      : all_(all), kept_(kept), reached_(all.size()), turned_(all.size()) {}
 
   std::vector<bool> find() {
     for (size_t cell = 0; cell < all_.size(); ++cell)
@@ -88,9 +89,15 @@ class Sides {
         turned_[at] = turn;
         sheet.push_back(next.cell);
       }
-    const auto count = std::ranges::count_if(
-        sheet, [&](int32_t cell) { return turned_[static_cast<size_t>(cell)]; });
-    const bool most = 2 * count > std::ssize(sheet);
+    const auto count = [&](bool kept, bool turned) {
+      return std::ranges::count_if(sheet, [&](int32_t cell) {
+        const auto at = static_cast<size_t>(cell);
+        return (kept_[at] || !kept) && turned_[at] == turned;
+      });
+    };
+    const auto kept = count(true, false), against = count(true, true);
+    has_sides = has_sides && (kept == 0 || against == 0);
+    const bool most = kept + against > 0 ? against > 0 : count(false, true) > count(false, false);
     for (const int32_t cell : sheet) {
       const auto at = static_cast<size_t>(cell);
       turned_[at] = has_sides && turned_[at] != most;
@@ -98,6 +105,7 @@ class Sides {
   }
 
   const Neighbours& all_;
+  const std::vector<bool>& kept_;
   std::vector<bool> reached_, turned_;
 };
 
@@ -110,8 +118,12 @@ void turn(ShellBlock& block, Eigen::Index row) {
 
 }  // namespace
 
-int64_t orient_shells(std::vector<ShellBlock>& shells) {
-  const std::vector<bool> turned = Sides(neighbours_of(shells)).find();
+int64_t orient_shells(std::vector<ShellBlock>& shells, const std::vector<bool>& keep) {
+  std::vector<bool> kept;
+  for (size_t b = 0; b < shells.size(); ++b)
+    kept.insert(kept.end(), static_cast<size_t>(shells[b].nodes.rows()), !keep.empty() && keep[b]);
+  const Neighbours all = neighbours_of(shells);
+  const std::vector<bool> turned = Sides(all, kept).find();
   int64_t count = 0;
   size_t cell = 0;
   for (ShellBlock& block : shells) {

@@ -29,12 +29,29 @@ struct RegionMaterial {
   std::vector<std::string> regions;
 };
 
+/// [[shell.layer]].
+struct ShellLayer {
+  Source source{};
+  std::string material{};
+  double thickness = 0.0;  // [m]
+  double angle = 0.0;      // [rad]
+};
+
 /// [[shell]]: the section of the shells of some regions, where the mesh has no thickness or offset
 /// of its own.
 struct Shell {
   Source source{};
   std::vector<std::string> regions{};
-  fe::ShellSection section{};
+  fe::ShellSection section{};  // without materials, layers and axes, which have names
+  std::string system{}, bending_material{}, shear_material{};
+  std::vector<ShellLayer> layers{};
+
+  /// Of the sheet, or of all layers [m]; 0: not known.
+  double thickness() const {
+    double sum = section.thickness;
+    for (const ShellLayer& layer : layers) sum += layer.thickness;
+    return sum;
+  }
 };
 
 /// [matrices]: matrices of another program, instead of all other tables.

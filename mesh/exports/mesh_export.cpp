@@ -40,6 +40,16 @@ void warn_of_sections(const Mesh& mesh, const std::filesystem::path& path) {
                   path.string(), count));
 }
 
+void warn_of_directions(const Mesh& mesh, const std::filesystem::path& path) {
+  int64_t count = 0;
+  for (const ShellBlock& block : mesh.shells) count += block.axis.rows();
+  if (count > 0)
+    warn(
+        fmt::format("{}: direction 1 of the material of {} shells is not written: give it to their "
+                    "sections in the other program",
+                    path.string(), count));
+}
+
 template <std::string (*kText)(const Mesh&)>
 void write_text(const Mesh& mesh, const std::filesystem::path& path) {
   write_whole_file(path, kText(mesh));
@@ -68,6 +78,7 @@ void export_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   if (path.extension() != ".vtu") {
     warn_of_hanging_mid_side_nodes(mesh, path);
     if (write != static_cast<Writer>(deck::write_nastran)) warn_of_sections(mesh, path);
+    warn_of_directions(mesh, path);
   }
   write(mesh, path);
 }

@@ -26,8 +26,8 @@ void wire(Archive& archive, Self& s) {
 
 template <class Archive, SelfOf<ShellBlock> Self>
 void wire(Archive& archive, Self& s) {
-  auto& [type, region, nodes, ids, thickness, offset] = s;
-  archive(type, region, nodes, ids, thickness, offset);
+  auto& [type, region, nodes, ids, thickness, offset, axis] = s;
+  archive(type, region, nodes, ids, thickness, offset, axis);
 }
 
 template <class Archive, SelfOf<FaceBlock> Self>

@@ -274,12 +274,6 @@ TEST(Sheet, RefusesWhatItIsNot) {
                      {"regions: found \"sheet\" in two [[shell]]"});
   test::expect_parts(refused(kSheetSteel + "[[shell]]\nregions = [\"lid\"]\nthickness = 1.0\n"),
                      {"regions: found \"lid\", expected one of: sheet"});
-  test::expect_parts(
-      refused("[material.steel]\nregions = [\"sheet\"]\nE = 2e11\nnu = 0.0\nrho = 8000.0\n"
-              "expansion = [1e-5, 1e-5, 2e-5]\n[[shell]]\nregions = [\"sheet\"]\n"
-              "thickness = 0.002\n[[load]]\nname = \"warm\"\nkind = \"temperature\"\n"),
-      {"kind: found temperature and the shells of region \"sheet\"", "along its axes",
-       "one value of expansion"});
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ TEST_P(ShellSections, ARatioOfTwoIsTwiceTheThickness) {
   twice.thickness *= 2.0;
   ShellCell thick = cell_alone(x, twice);
   for (ShellCell* cell : {&thin, &thick}) {  // beside the material's
-    cell->stiffness.area_mass = 0.4;
-    cell->stiffness.mass += 0.4;
+    cell->stiffness.mass.area_mass = 0.4;
+    cell->stiffness.mass.total += 0.4;
   }
   EXPECT_LE(difference(computed(thick).stiffness, computed(thin).stiffness), 1e-14);
   EXPECT_LE(difference(computed(thick).mass, computed(thin).mass), 1e-14);
