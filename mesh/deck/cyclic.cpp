@@ -199,7 +199,8 @@ class Unfolding {
     if (!deck_.bolts.empty()) fail(deck_.bolts[0].where, "a bolt");
     if (!deck_.springs.empty()) fail(deck_.springs[0].where, "a spring");
     if (!deck_.masses.empty()) fail(deck_.masses[0].where, "a mass");
-    if (!deck_.mesh.shells.empty()) fail(deck_.shells[0].source.where(), "shells");
+    if (!deck_.mesh.shells.empty())
+      fail(deck_.regions[static_cast<size_t>(deck_.mesh.shells[0].region)].where, "shells");
     for (const Region& region : deck_.regions)
       if (!region.system.empty() && !repeats(deck_.systems.at(region.system)))
         fail(region.where, "material axes that do not rotate with it");

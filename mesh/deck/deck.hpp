@@ -55,6 +55,7 @@ struct Material {
   std::string name, where;
   Kind kind = Kind::kIsotropic;
   std::vector<double> constants;
+  bool of_sheets = false;         // some constants have no part in a sheet, and are not known
   double density = 0.0;           // 0: the deck has none
   std::vector<double> expansion;  // 1 (isotropic), 3 (along the axes) or none [1/K]
   double reference_temperature = 0.0;

@@ -20,7 +20,7 @@ constexpr double kNotedWarp = 0.1, kMostWarp = 0.5;
 struct ShellRows {
   std::vector<NodeIndex> nodes;
   std::vector<int32_t> ids;
-  std::vector<double> thickness, offset;
+  std::vector<double> thickness, offset, axis;
 };
 
 class ShellAdder {
@@ -45,7 +45,12 @@ class ShellAdder {
 
   std::vector<ShellHinge> finish() {
     for (auto& [key, rows] : rows_) add_block(key.first, key.second, rows);
-    const int64_t turned = orient_shells(deck_.mesh.shells);
+    std::vector<bool> layered;
+    for (const ShellBlock& block : deck_.mesh.shells) {
+      const recipe::Shell* shell = section_of(block.region);
+      layered.push_back(shell != nullptr && !shell->layers.empty());
+    }
+    const int64_t turned = orient_shells(deck_.mesh.shells, layered);
     const auto note = [&](size_t i, const std::string& text) {
       deck_.notes.push_back(fmt::format("{}: {}", where_(i), text));
     };
@@ -91,6 +96,7 @@ class ShellAdder {
     rows.thickness.insert(rows.thickness.end(), part.values.begin(), part.values.begin() + count);
     rows.ids.push_back(cell.id);
     rows.offset.push_back(cell.offset);
+    rows.axis.insert(rows.axis.end(), cell.axis.begin(), cell.axis.end());
   }
 
   void find_hinge(size_t i, const ShellCell& cell, const ShellFace& face) {
@@ -112,21 +118,23 @@ class ShellAdder {
     block.type = type;
     block.region = region;
     block.nodes = Eigen::Map<const IndexMatrix>(rows.nodes.data(), cells, columns);
-    const double usual = thickness_of(region);
+    const recipe::Shell* shell = section_of(region);
+    const double usual = shell != nullptr ? shell->thickness() : 0.0;
     if (std::ranges::any_of(rows.thickness, [&](double t) { return t != usual; }))
       block.thickness = Eigen::Map<const RowMatrix>(rows.thickness.data(), cells, columns);
     if (std::ranges::any_of(rows.offset, [](double offset) { return offset != 0.0; }))
       block.offset = Eigen::Map<const Eigen::VectorXd>(rows.offset.data(), cells);
+    if (std::ranges::any_of(rows.axis, [](double along) { return along != 0.0; }))
+      block.axis = Eigen::Map<const RowMatrix>(rows.axis.data(), cells, 3);
     block.ids = std::move(rows.ids);
   }
 
-  // 0 without a section, in a mesh without properties.
-  double thickness_of(int32_t region) const {
+  // Null in a mesh without properties.
+  const recipe::Shell* section_of(int32_t region) const {
     const std::string& name = deck_.mesh.regions[static_cast<size_t>(region)];
     for (const recipe::Shell& shell : deck_.shells)
-      if (std::ranges::find(shell.regions, name) != shell.regions.end())
-        return shell.section.thickness;
-    return 0.0;
+      if (std::ranges::find(shell.regions, name) != shell.regions.end()) return &shell;
+    return nullptr;
   }
 
   Deck& deck_;

@@ -19,11 +19,12 @@ struct ShellCell {
   int32_t region = 0;   // index into Mesh::regions
   ShellFace face;       // its side is outward; values: thickness
   double offset = 0.0;  // from its nodes to its mid-surface, outward
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // direction 1 of its material, or 0
 };
 
 /// Adds shells to Deck::mesh: quadratic ones as four linear ones each, those with a repeated corner
-/// as triangles, turned where neighbours have other sides (orient_shells.hpp); with a thickness of
-/// their own where it is not that of the region in Deck::shells. Refuses those that cannot be
+/// as triangles, turned where neighbours have other sides (orient_shells.hpp) but not those of
+/// layers; with a thickness of their own where it is not that of the region in Deck::shells. Refuses those that cannot be
 /// shells; notes what it did.
 /// @param where file and line of cell i.
 /// @return those on nodes of solids.

@@ -119,7 +119,7 @@ std::string skin_loss(const std::string& what, double thickness, double mass) {
   std::string text = what + " gives stiffness to faces of solids";
   if (thickness > 0.0) text += fmt::format(", {} thick", thickness);
   if (mass > 0.0) text += fmt::format(", {:.4g} of mass in the deck's units", mass);
-  return text + ": left out until shells are read";
+  return text + ": left out";
 }
 
 std::string counted(const std::map<std::string, int64_t>& kinds) {

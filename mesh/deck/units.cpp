@@ -57,6 +57,7 @@ void convert_shells(Deck& deck, const UnitSystem& units) {
   for (recipe::Shell& shell : deck.shells) {
     shell.section.thickness *= units.length;
     shell.section.offset *= units.length;
+    for (recipe::ShellLayer& layer : shell.layers) layer.thickness *= units.length;
     shell.section.area_mass *= units.mass / (units.length * units.length);
   }
   for (ShellBlock& block : deck.mesh.shells) {

@@ -188,6 +188,14 @@ class ShellExports(unittest.TestCase):
         self.assertEqual([kind for kind in ("vtu", "msh", "med", "unv", "inp", "nas") if f"out.{kind}: {lost}" in self.warnings],
                          ["msh", "med", "unv", "inp"])
 
+    def test_directions_of_materials_that_no_format_has_are_named(self):
+        layers = SHELLS.replace("PSHELL,3,1,.003,1,,1", "MAT8,8,1.4+11,1.+10,.3,5.+9,5.+9,3.+9,1600.\nPCOMP,3,,,,,,,,+\n+,8,.003")
+        (self.folder / "layers.bdf").write_text(layers)
+        self.mesh("layers.bdf", "--units", "m-kg-s", "-o", "layers.mesh.h5")
+        for kind in ("msh", "nas"):
+            done = self.mesh("export", "layers.mesh.h5", f"layers.{kind}")
+            self.assertIn("direction 1 of the material of 1 shells is not written", done.stderr)
+
     def test_decks_give_the_same_shells_again(self):
         def content(name):
             out = {}

@@ -154,10 +154,17 @@ void read_elastic(Model& model, const Card& card, Material* material) {
   } else if (type == "ANISO" || type == "ANISOTROPIC") {
     material->kind = Kind::kAnisotropic;
     material->constants = upper_triangle(constants_of(model, card, 21));
+  } else if (type == "LAMINA") {
+    // E1, E2, nu12, G12, G13, G23; E3, nu13 and nu23 have no part in a sheet.
+    const std::vector<double> given = constants_of(model, card, 6);
+    material->kind = Kind::kOrthotropic;
+    material->of_sheets = true;
+    material->constants = {given[0], given[1], given[1], given[2], 0.0,
+                           0.0,      given[3], given[4], given[5]};
   } else {
     model.source.fail(card.origin(), fmt::format("*ELASTIC: found TYPE={}, expected ISOTROPIC, "
-                                                 "ENGINEERING CONSTANTS, ORTHOTROPIC or "
-                                                 "ANISOTROPIC",
+                                                 "ENGINEERING CONSTANTS, ORTHOTROPIC, ANISOTROPIC "
+                                                 "or LAMINA",
                                                  *keyword.find("TYPE")));
   }
 }

@@ -73,6 +73,10 @@ class Sections {
     if (material.constants.empty()) {
       model_.source.fail(card.origin(), fmt::format("material {} has no *ELASTIC", material.name));
     }
+    if (material.of_sheets)
+      model_.source.fail(card.origin(), fmt::format("material {} is a LAMINA, of shells, expected "
+                                                    "ENGINEERING CONSTANTS of a solid",
+                                                    material.name));
     const int32_t region = new_region(use, name, card.origin());
     model_.deck.regions.back().material = material.name;
     if (const std::string* orientation = keyword.find("ORIENTATION")) {

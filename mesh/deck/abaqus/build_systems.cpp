@@ -60,18 +60,20 @@ System system_of(const Fields& fields, System::Kind kind, bool with_origin) {
   return system;
 }
 
-// The second line of *ORIENTATION: a local axis and the angle about it in degrees.
-void turn(const Fields& fields, System& system) {
+// The second line of *ORIENTATION: a local axis and the angle about it in degrees. Returns the
+// axis.
+int turn(const Fields& fields, System& system) {
   const int axis = fields.integer(0, "local axis", 1, 3);
   const double angle = fields.number_or(1, "angle in degrees", 0.0) * std::numbers::pi / 180.0;
   fields.at_most(2, "local axis and angle");
-  if (angle == 0.0) return;
+  if (angle == 0.0) return axis;
   if (system.kind != System::Kind::kRectangular) {
     fields.fail(
         "found an additional rotation of a cylindrical orientation, which is not supported");
   }
   const Eigen::Vector3d about = system.axes.col(axis - 1);
   system.axes = Eigen::AngleAxisd(angle, about).toRotationMatrix() * system.axes;
+  return axis;
 }
 
 void move(const Use& use, System& system) {
@@ -102,13 +104,14 @@ void build_systems(Model& model) {
     const System::Kind kind =
         kind_of(card, model.source, "SYSTEM", keyword.choice("SYSTEM", "RECTANGULAR"));
     System system = system_of(card.line(0, model.source), kind, true);
-    if (card.size() == 2) turn(card.line(1, model.source), system);
+    const int axis = card.size() == 2 ? turn(card.line(1, model.source), system) : 0;
     move(model.numbering.uses()[use], system);
     system.name = model.numbering.public_name(use, keyword.required("NAME", model.source));
     const bool is_new = model.system_names.emplace(folded(system.name), system.name).second;
     if (!is_new || !model.deck.systems.emplace(system.name, system).second) {
       model.source.fail(card.origin(), fmt::format("found a second orientation {}", system.name));
     }
+    model.turned_axis[system.name] = axis;
   });
 }
 

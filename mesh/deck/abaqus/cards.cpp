@@ -44,7 +44,7 @@ constexpr std::array kRoles = {
     KeywordRole{"END STEP", Role::kStepEnd, "end of a step"},
     KeywordRole{"MATERIAL", Role::kMaterial, "material"},
     KeywordRole{"ELASTIC", Role::kMaterialPart,
-                "isotropic, engineering constants, orthotropic, anisotropic"},
+                "isotropic, engineering constants, orthotropic, anisotropic, lamina of shells"},
     KeywordRole{"DENSITY", Role::kMaterialPart, "density"},
     KeywordRole{"EXPANSION", Role::kMaterialPart, "thermal expansion"},
     KeywordRole{"DAMPING", Role::kMaterialPart, "alpha and beta, offered to the recipe"},
@@ -198,7 +198,6 @@ constexpr std::array kRoles = {
     KeywordRole{"SUBSTRUCTURE MATRIX OUTPUT", Role::kHarmless, kOutput},
     KeywordRole{"SURFACE PROPERTY ASSIGNMENT", Role::kHarmless, kShells},
     KeywordRole{"TIME POINTS", Role::kHarmless, "of output"},
-    KeywordRole{"TRANSVERSE SHEAR STIFFNESS", Role::kHarmless, kShells},
     KeywordRole{"USER OUTPUT VARIABLES", Role::kHarmless, kOutput},
 };
 

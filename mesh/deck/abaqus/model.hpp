@@ -52,11 +52,13 @@ struct Model {
   std::map<std::string, std::vector<int32_t>> node_surfaces;        // the same -> rows
   std::vector<std::pair<size_t, std::vector<int32_t>>> dependents;  // of Deck::rigid, as rows
   std::map<std::string, std::string> material_names, system_names;  // folded -> name in the deck
-  std::map<std::string, const Card*> amplitudes;                    // by folded name
-  std::optional<double> step_time, total_time;  // at the end of an open general static step
-  std::vector<int32_t> region_of_cell;          // index into Mesh::regions
-  int64_t faces = 0;                            // of all surfaces
-  std::vector<BoltCut> cuts;                    // of *PRE-TENSION SECTION
+  // Of each *ORIENTATION: 1 to 3, the axis of its second line; 0: it has none.
+  std::map<std::string, int> turned_axis;
+  std::map<std::string, const Card*> amplitudes;  // by folded name
+  std::optional<double> step_time, total_time;    // at the end of an open general static step
+  std::vector<int32_t> region_of_cell;            // index into Mesh::regions
+  int64_t faces = 0;                              // of all surfaces
+  std::vector<BoltCut> cuts;                      // of *PRE-TENSION SECTION
   ShellParts shells;
 
   /// Whether an element is a shell beside the solids.

@@ -115,7 +115,7 @@ class FormulationNotes {
 Region region_of(Model& model, int32_t property, const RawSolid& solid, FormulationNotes& notes) {
   Region region;
   region.where = model.source.where(solid.origin);
-  region.material = use_material(model, solid.material, solid.origin);
+  region.material = use_material(model, "PSOLID", solid.material, solid.origin);
   const auto material = model.raw.materials.find(solid.material);
   const bool isotropic =
       material == model.raw.materials.end() || material->second.kind == Material::Kind::kIsotropic;

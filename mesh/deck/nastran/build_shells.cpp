@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <set>
 
 #include "mesh/deck/nastran/model.hpp"
 
@@ -53,9 +55,10 @@ class ShellProperties {
     const auto shell = model_.raw.shells.find(property);
     if (shell != model_.raw.shells.end()) {
       region.where = model_.source.where(shell->second.origin);
-      model_.deck.shells.push_back({recipe::Source(region.where), {name}, {}});
-      model_.deck.shells.back().section = section_of(property, shell->second);
-      region.material = use_material(model_, shell->second.material, shell->second.origin);
+      const RawShell& raw = shell->second;
+      model_.deck.shells.push_back(shell_of(name, region.where, property, raw));
+      if (!is_mere_mesh(model_) && raw.plies.empty())
+        region.material = use(property, raw, raw.material);
     } else if (!model_.raw.shells.empty() || !model_.raw.solids.empty()) {
       model_.source.fail(cell.origin,
                          fmt::format("{} {}: found no PSHELL {}", cell.kind, cell.id, property));
@@ -65,60 +68,101 @@ class ShellProperties {
     return static_cast<int32_t>(mesh.regions.size()) - 1;
   }
 
-  fe::ShellSection section_of(int32_t property, const RawShell& raw) {
+  recipe::Shell shell_of(const std::string& region, const std::string& where, int32_t property,
+                         const RawShell& raw) {
     const auto fail = [&](const std::string& message) {
       model_.source.fail(raw.origin, fmt::format("{} {}: {}", raw.card, property, message));
     };
     if (!raw.refusal.empty())
       fail(raw.refusal + "; ignore = [\"CQUAD4\"] and the like leave cells out");
-    const Material sheet = isotropic(property, raw, raw.material);
-    const Material bending = isotropic(property, raw, raw.bending);
-    if (std::abs(sheet.constants[1] - bending.constants[1]) > kSameRatio)
-      fail(fmt::format("MID2 has NU = {}, expected {} as MID1", bending.constants[1],
-                       sheet.constants[1]));
-    const auto shear_of = [](const Material& material) {
-      return material.constants[0] / (2.0 * (1.0 + material.constants[1]));
-    };
-    fe::ShellSection section;
-    section.thickness = raw.thickness;
-    section.bending = raw.inertia * bending.constants[0] / sheet.constants[0];
-    if (raw.shear == 0) {
-      if (without_shear_++ == 0) first_without_shear_ = raw.origin;
-      section.shear = 5.0 / 6.0 * shear_of(bending) / shear_of(sheet);
-    } else {
-      section.shear =
-          raw.shear_ratio * shear_of(isotropic(property, raw, raw.shear)) / shear_of(sheet);
-    }
+    recipe::Shell shell{recipe::Source(where), {region}, {}};
+    fe::ShellSection& section = shell.section;
     section.area_mass = raw.area_mass * model_.raw.control.mass_factor;
-    if (!(section.thickness >= 0.0) || !(section.bending > 0.0) || !(section.shear > 0.0) ||
-        !(section.area_mass >= 0.0))
-      fail("found a T, 12I/T**3, TS/T or NSM below 0, or a stiffness of 0");
-    return section;
+    if (!raw.plies.empty()) {
+      add_layers(property, raw, shell);
+    } else if (is_mere_mesh(model_)) {
+      section.thickness = raw.thickness;
+    } else {
+      section.thickness = raw.thickness;
+      section.bending = raw.inertia;
+      take_materials(property, raw, shell);
+      if (!(section.thickness >= 0.0) || !(section.bending > 0.0) || !(section.shear > 0.0))
+        fail("found a T, 12I/T**3 or TS/T below 0, or a stiffness of 0");
+    }
+    if (!(section.area_mass >= 0.0)) fail("found NSM below 0");
+    return shell;
   }
 
-  // In a mesh without materials all of a property are the same.
-  Material isotropic(int32_t property, const RawShell& raw, int32_t id) const {
-    if (is_mere_mesh(model_)) {
-      Material any;
-      any.constants = {1.0, 0.0};
-      return any;
+  std::string use(int32_t property, const RawShell& raw, int32_t material) {
+    const std::string name =
+        use_material(model_, fmt::format("{} {}", raw.card, property), material, raw.origin);
+    const RawMaterial& found = model_.raw.materials.at(material);
+    const bool is_soft = found.kind == Material::Kind::kOrthotropic &&
+                         (found.constants[7] == 0.0 || found.constants[8] == 0.0);
+    if (is_soft && soft_.insert(material).second)
+      model_.deck.notes.push_back(
+          fmt::format("{}: G1Z or G2Z of MAT8 {} is blank, rigid in shear across the sheet in "
+                      "Nastran: here G12",
+                      model_.source.where(found.origin), material));
+    return name;
+  }
+
+  void add_layers(int32_t property, const RawShell& raw, recipe::Shell& shell) {
+    for (const RawPly& ply : raw.plies) {
+      shell.layers.push_back({shell.source, use(property, raw, ply.material), ply.thickness,
+                              ply.angle * std::numbers::pi / 180.0});
+      take_reference(raw, property, shell.layers.back().material);
     }
-    const auto found = model_.raw.materials.find(id);
-    const auto other = model_.raw.other_materials.find(id);
-    std::string card;
-    if (other != model_.raw.other_materials.end()) card = other->second;
-    if (found != model_.raw.materials.end())
-      card = found->second.kind == Material::Kind::kIsotropic ? "MAT1" : "MAT9";
-    if (card == "MAT1") return material_of(model_, id);
-    model_.source.fail(
-        raw.origin, card.empty() ? fmt::format("PSHELL {}: found no material {}", property, id)
-                                 : fmt::format("PSHELL {}: material {} is a {}, expected a MAT1: "
-                                               "sheets of isotropic material are read",
-                                               property, id, card));
+  }
+
+  /// TREF of a PCOMP counts, not that of its materials.
+  void take_reference(const RawShell& raw, int32_t property, const std::string& name) {
+    double& reference = model_.deck.materials.at(name).reference_temperature;
+    const bool is_shared = std::ranges::any_of(
+        model_.deck.regions, [&](const Region& region) { return region.material == name; });
+    if (is_shared && reference != raw.reference_temperature)
+      model_.source.fail(
+          raw.origin, fmt::format("{} {}: found TREF = {}, expected {} as that of {}, which "
+                                  "other properties have too",
+                                  raw.card, property, raw.reference_temperature, reference, name));
+    reference = raw.reference_temperature;
+  }
+
+  bool are_alike(const RawShell& raw) const {
+    const auto is_isotropic = [&](int32_t id) {
+      return id == 0 || material_card(model_, id) == "MAT1";
+    };
+    if (!is_isotropic(raw.material) || !is_isotropic(raw.bending) || !is_isotropic(raw.shear))
+      return false;
+    const double sheet = material_of(model_, raw.material).constants[1];
+    return std::abs(sheet - material_of(model_, raw.bending).constants[1]) <= kSameRatio;
+  }
+
+  /// Of isotropic materials with the same Poisson's ratio the first one is enough.
+  void take_materials(int32_t property, const RawShell& raw, recipe::Shell& shell) {
+    use(property, raw, raw.material);
+    const std::string bending = use(property, raw, raw.bending);
+    const int32_t across = raw.shear == 0 ? raw.bending : raw.shear;
+    const std::string shear = use(property, raw, across);
+    if (raw.shear == 0 && without_shear_++ == 0) first_without_shear_ = raw.origin;
+    fe::ShellSection& section = shell.section;
+    if (raw.shear != 0) section.shear = raw.shear_ratio;
+    if (!are_alike(raw)) {
+      if (raw.bending != raw.material) shell.bending_material = bending;
+      if (across != raw.material) shell.shear_material = shear;
+      return;
+    }
+    const std::vector<double> sheet = material_of(model_, raw.material).constants;
+    const auto shear_of = [](const std::vector<double>& of) {
+      return of[0] / (2.0 * (1.0 + of[1]));
+    };
+    section.bending *= material_of(model_, raw.bending).constants[0] / sheet[0];
+    section.shear *= shear_of(material_of(model_, across).constants) / shear_of(sheet);
   }
 
   Model& model_;
   std::map<int32_t, int32_t> regions_;  // by property; -1: refused
+  std::set<int32_t> soft_;              // MAT8 that are noted
   int64_t without_shear_ = 0;
   Origin first_without_shear_ = 0;
 };
@@ -135,17 +179,27 @@ class ShellReader {
     cell.offset = raw.offset;
     cell.face = face_of_shell(model_, raw);
     const auto shell = model_.raw.shells.find(raw.property);
-    if (shell != model_.raw.shells.end()) take_thickness(raw, shell->second.thickness, cell);
+    if (shell == model_.raw.shells.end()) return cell;
+    take_thickness(raw, shell->second, cell);
+    if (!shell->second.plies.empty())
+      cell.offset += shell->second.bottom + 0.5 * shell->second.thickness;
+    if (has_directions(shell->second)) cell.axis = axis_of(raw, cell.face);
     return cell;
   }
 
   void note() const { properties_.note_shear(); }
 
  private:
-  void take_thickness(const RawSkin& raw, double usual, ShellCell& cell) const {
+  void take_thickness(const RawSkin& raw, const RawShell& property, ShellCell& cell) const {
+    const double usual = property.thickness;
     for (size_t i = 0; i < static_cast<size_t>(traits(raw.type).corners); ++i) {
       const double own = raw.thickness[i];
       const double t = std::isnan(own) ? usual : raw.is_relative ? own * usual : own;
+      if (!property.plies.empty() && t != usual)
+        model_.source.fail(raw.origin,
+                           fmt::format("{} {}: found T{} = {:g}, expected blank fields: its {} has "
+                                       "the thickness",
+                                       raw.kind, raw.id, i + 1, t, property.card));
       if (!(t > 0.0) && !(t == 0.0 && is_mere_mesh(model_)))
         model_.source.fail(raw.origin,
                            fmt::format("{} {}: found a thickness of {:g}, expected more than 0: T "
@@ -153,6 +207,38 @@ class ShellReader {
                                        raw.kind, raw.id, t, traits(raw.type).corners));
       cell.face.values[i] = t;
     }
+  }
+
+  bool has_directions(const RawShell& property) const {
+    const auto turns = [&](int32_t id) {
+      return id > 0 && !is_mere_mesh(model_) && material_card(model_, id) != "MAT1";
+    };
+    return std::ranges::any_of(property.plies,
+                               [&](const RawPly& ply) { return turns(ply.material); }) ||
+           turns(property.material) || turns(property.bending) || turns(property.shear);
+  }
+
+  // THETA from the side of the first two grids, about the normal; or direction x of MCID.
+  Eigen::Vector3d axis_of(const RawSkin& raw, const ShellFace& face) const {
+    const auto at = [&](size_t i) {
+      return Eigen::Vector3d(model_.deck.mesh.nodes.row(face.nodes[i]));
+    };
+    if (raw.system != kNoSystem) {
+      const bool is_curved = raw.system > 0 && model_.systems.get(raw.system, raw.origin).kind !=
+                                                   System::Kind::kRectangular;
+      if (is_curved)
+        model_.source.fail(raw.origin, fmt::format("{} {}: MCID {} is a curved system, expected a "
+                                                   "rectangular one, or THETA",
+                                                   raw.kind, raw.id, raw.system));
+      return model_.systems.directions(raw.system, at(0), raw.origin).col(0);
+    }
+    const size_t last = static_cast<size_t>(traits(face.type).corners) - 1;
+    const Eigen::Vector3d side = at(1) - at(0);
+    const Eigen::Vector3d normal =
+        (last == 3 ? (at(2) - at(0)).cross(at(3) - at(1)) : side.cross(at(2) - at(0))).normalized();
+    const Eigen::Vector3d first = (side - side.dot(normal) * normal).normalized();
+    const double angle = raw.angle * std::numbers::pi / 180.0;
+    return std::cos(angle) * first + std::sin(angle) * normal.cross(first);
   }
 
   Model& model_;

@@ -17,7 +17,7 @@ constexpr const char* kCell = "cells, with any mid-side nodes or none";
 constexpr const char* kSkin = "shell; where it is a face of a solid, a surface";
 constexpr const char* kQuadraticSkin = "four shells; where it is a face of a solid, a surface";
 constexpr const char* kLayers =
-    "refused where shells have it; of faces of solids left out with a line";
+    "section of shells with its layers; of faces of solids left out with a line";
 
 // Why cards are passed over.
 constexpr const char* kDampers = "dampers";
@@ -211,11 +211,11 @@ constexpr std::array kRoles = {
     passes("LSEQ", kDynamic),
     reads("MAT1", read_mat1, 16, "isotropic material; damping and stress limits are not read"),
     reads("MAT10", read_other_material, 0, "of a fluid, whose cells are refused"),
-    reads("MAT2", read_other_material, 0, "named where a solid or shell has it"),
+    reads("MAT2", read_mat2, 24, "anisotropic material of shells"),
     reads("MAT3", read_other_material, 0, "named where a solid or shell has it"),
     passes("MAT4", kUnused),
     passes("MAT5", kUnused),
-    reads("MAT8", read_other_material, 0, "named where a solid or shell has it"),
+    reads("MAT8", read_mat8, 24, "orthotropic material of shells; strengths are not read"),
     reads("MAT9", read_mat9, 32, "anisotropic material"),
     reads("MATHE", read_other_material, 0, "named where a solid or shell has it"),
     reads("MATHP", read_other_material, 0, "named where a solid or shell has it"),
@@ -275,7 +275,7 @@ constexpr std::array kRoles = {
     reads("PROD", read_prod, 8, kBeamSection),
     passes("PSHEAR", kUnused),
     reads("PSHELL", read_pshell, 16,
-          "section of shells with its MAT1; of faces of solids left out with a line"),
+          "section of shells with its materials; of faces of solids left out with a line"),
     reads("PSOLID", read_psolid, 8, "region with its material"),
     reads("PTUBE", read_ptube, 8, kBeamSection),
     passes("PVISC", kDampers),

@@ -59,6 +59,8 @@ void read_grdset(const Card& card, RawDeck& raw);
 void read_grid(const Card& card, RawDeck& raw);
 void read_load(const Card& card, RawDeck& raw);
 void read_mat1(const Card& card, RawDeck& raw);
+void read_mat2(const Card& card, RawDeck& raw);
+void read_mat8(const Card& card, RawDeck& raw);
 void read_mat9(const Card& card, RawDeck& raw);
 void read_mpc(const Card& card, RawDeck& raw);
 void read_mpcadd(const Card& card, RawDeck& raw);

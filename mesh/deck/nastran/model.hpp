@@ -3,6 +3,7 @@
 // Builds the Deck from the cards: shared state, and the functions in call order.
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "core/mesh/boundary.hpp"
 #include "mesh/deck/id_index.hpp"
@@ -84,9 +85,12 @@ ShellFace face_of_shell(const Model& model, const RawSkin& raw);
 std::vector<int32_t> complete_cells(Model& model, std::vector<int32_t>& mesh_node);
 /// PSOLID -> regions of the mesh and of the deck; `properties` are their numbers.
 void build_regions(Model& model, const std::vector<int32_t>& properties);
-/// MAT1, MAT9 -> Deck::materials. Name of the material; empty when the deck has none at all.
-/// InputError at `origin` if it is missing.
-std::string use_material(Model& model, int32_t id, Origin origin);
+/// The card of a material; empty for none.
+std::string_view material_card(const Model& model, int32_t id);
+/// MAT1 and MAT9, or MAT1, MAT2 and MAT8 of sheets -> Deck::materials. Name of the material; empty
+/// when the deck of solids has none at all. InputError at `origin` if it is missing or another one.
+/// @param property for messages: PSOLID, or another card with its number.
+std::string use_material(Model& model, std::string_view property, int32_t id, Origin origin);
 /// The same material, which raw.materials has, for properties beside regions.
 Material material_of(const Model& model, int32_t id);
 /// RBE2, RBE3 and what is the same: their grids get node indices.

@@ -78,8 +78,9 @@ struct RawSolid {  // PSOLID
 struct RawMaterial {
   Origin origin = 0;
   Material::Kind kind = Material::Kind::kIsotropic;
+  bool of_sheets = false;          // MAT2, MAT8
   std::array<double, 3> moduli{};  // MAT1: E, G, NU; NaN: blank
-  std::vector<double> constants;   // MAT9
+  std::vector<double> constants;   // of others; 0 where MAT8 is blank
   double density = 0.0, reference_temperature = 0.0;
   std::vector<double> expansion;
 };

@@ -2,6 +2,8 @@
 // Cards of properties and materials.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 #include "mesh/deck/nastran/cards.hpp"
@@ -17,6 +19,17 @@ void add_material(const Card& card, RawDeck& raw, const RawMaterial& material) {
   if (!raw.materials.emplace(id, material).second) {
     card.fail(0, fmt::format("found a second material {}", id));
   }
+}
+
+/// RHO, A1 and A2 are fields 7 to 9 of both cards.
+void add_sheet_material(const Card& card, size_t reference, RawMaterial material, RawDeck& raw) {
+  material.origin = card.origin();
+  material.of_sheets = true;
+  material.density = card.number_or(7, "RHO", 0.0);
+  material.expansion = {card.number_or(8, "A1", 0.0), card.number_or(9, "A2", 0.0), 0.0};
+  if (material.expansion == std::vector<double>(3, 0.0)) material.expansion.clear();
+  material.reference_temperature = card.number_or(reference, "TREF", 0.0);
+  add_material(card, raw, material);
 }
 
 }  // namespace
@@ -62,6 +75,34 @@ void read_mat9(const Card& card, RawDeck& raw) {
   }
   material.reference_temperature = card.number_or(29, "TREF", 0.0);
   add_material(card, raw, material);
+}
+
+// In the plane G11 G12 G13 G22 G23 G33; across the sheet G33.
+void read_mat2(const Card& card, RawDeck& raw) {
+  RawMaterial material;
+  material.kind = Material::Kind::kAnisotropic;
+  std::array<double, 6> g{};
+  for (size_t k = 0; k < 6; ++k) g[k] = card.number_or(1 + k, "G", 0.0);
+  const double across = std::max(g[0], g[3]);
+  material.constants = {g[0],   g[1], 0.0, g[2], 0.0,  0.0, g[3], 0.0,  g[4], 0.0, 0.0,
+                        across, 0.0,  0.0, 0.0,  g[5], 0.0, 0.0,  g[5], 0.0,  g[5]};
+  if (card.number_or(10, "A3", 0.0) != 0.0)
+    card.fail(10, "thermal shear strains are not supported");
+  add_sheet_material(card, 11, std::move(material), raw);
+}
+
+// E3, NU13 and NU23 have no part in a sheet.
+void read_mat8(const Card& card, RawDeck& raw) {
+  RawMaterial material;
+  material.kind = Material::Kind::kOrthotropic;
+  const auto modulus = [&](size_t field, const char* what) {
+    return card.number_or(field, what, 0.0);
+  };
+  const double E2 = modulus(2, "E2");
+  material.constants = {
+      modulus(1, "E1"), E2, E2, modulus(3, "NU12"), 0.0, 0.0, modulus(4, "G12"), modulus(5, "G1Z"),
+      modulus(6, "G2Z")};
+  add_sheet_material(card, 10, std::move(material), raw);
 }
 
 void read_other_property(const Card& card, RawDeck& raw) {

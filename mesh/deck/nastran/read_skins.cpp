@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two-dimensional cells, which are shells or faces of solids, and their properties.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -49,16 +51,56 @@ void take_sheet(const Card& card, RawShell& shell) {
   shell.area_mass = card.number_or(7, "NSM", 0.0);
   if (!card.blank(10))
     shell.refusal =
-        "MID4 joins stretching to bending, which is not read: ZOFFS of its cells or "
-        "two sheets replace it";
+        "MID4 joins stretching to bending, which is not read: ZOFFS of its cells or a PCOMP "
+        "replaces it";
   else if (shell.material == 0)
-    shell.refusal = "MID1 is blank: a plate that nothing holds in its plane, expected a MAT1";
+    shell.refusal = "MID1 is blank: a plate that nothing holds in its plane, expected a material";
   else if (shell.bending == -1)
     shell.refusal = "MID2 is -1: plane strain is not read, expected MID2 = MID1 of a sheet";
   else if (shell.bending == 0)
     shell.refusal =
         "MID2 is blank: a membrane, whose grids nothing holds across it, expected "
         "MID2 = MID1 of a sheet";
+}
+
+// Blank materials and thicknesses are those of the ply before.
+void take_plies(const Card& card, size_t first, size_t fields, size_t each, RawShell& shell) {
+  for (size_t i = first; i < card.size(); i += each) {
+    bool blank = true;
+    for (size_t k = 0; k < fields; ++k) blank = blank && card.blank(i + k);
+    if (blank) continue;
+    RawPly ply = shell.plies.empty() ? RawPly{} : shell.plies.back();
+    if (!card.blank(i) || ply.material == 0) ply.material = card.id(i, "MID");
+    if (!card.blank(i + 1) || ply.thickness == 0.0) ply.thickness = card.number(i + 1, "T");
+    if (!(ply.thickness > 0.0)) card.fail_expected(i + 1, "T", "more than 0");
+    ply.angle = card.number_or(i + 2, "THETA", 0.0);
+    shell.plies.push_back(ply);
+  }
+  if (shell.plies.empty()) card.fail(first, "found no ply, expected MID, T and THETA of each");
+}
+
+void take_layers(const Card& card, RawShell& shell) {
+  constexpr size_t kFirstPly = 8;
+  // A ply of PCOMPG begins with its number and has a line; two of PCOMP are on a line.
+  if (shell.card == "PCOMPG")
+    take_plies(card, kFirstPly + 1, 3, 8, shell);
+  else
+    take_plies(card, kFirstPly, 4, 4, shell);
+  const std::string_view kind = card.text(7);
+  if (kind == "SYM") {
+    const std::vector<RawPly> half = shell.plies;
+    shell.plies.insert(shell.plies.end(), half.rbegin(), half.rend());
+  } else if (!kind.empty()) {
+    shell.refusal = fmt::format(
+        "LAM is {}: a laminate without part of its stiffness is not read, expected SYM or a blank "
+        "field",
+        kind);
+  }
+  for (const RawPly& ply : shell.plies) shell.thickness += ply.thickness;
+  shell.material = shell.plies.front().material;
+  shell.bottom = card.number_or(1, "Z0", -0.5 * shell.thickness);
+  shell.area_mass = card.number_or(2, "NSM", 0.0);
+  shell.reference_temperature = card.number_or(5, "TREF", 0.0);
 }
 
 }  // namespace
@@ -71,6 +113,12 @@ void read_skin(const Card& card, RawDeck& raw) {
   skin.id = card.id(0, "EID");
   skin.property = card.id_or(1, "PID", skin.id);
   take_grids(card, fields, skin);
+  const size_t direction = fields.offset - 1;
+  if (card.is_integer(direction))
+    skin.system = card.integer(direction, "MCID");
+  else
+    skin.angle = card.number_or(direction, "THETA", 0.0);
+  if (skin.system < kNoSystem) card.fail_expected(direction, "MCID", "a coordinate system or 0");
   skin.offset = card.number_or(fields.offset, "ZOFFS", 0.0);
   const int32_t flag = card.integer_or(fields.flag, "TFLAG", 0);
   if (flag != 0 && flag != 1) card.fail_expected(fields.flag, "TFLAG", "0 or 1");
@@ -88,9 +136,7 @@ void read_pshell(const Card& card, RawDeck& raw) {
   if (shell.card == "PSHELL")
     take_sheet(card, shell);
   else
-    shell.refusal =
-        "shells of layers are not read: a PSHELL with a MAT1 of their mean stiffness "
-        "replaces them";
+    take_layers(card, shell);
   if (!raw.shells.emplace(card.id(0, "PID"), shell).second) card.fail(0, "found a second one");
 }
 

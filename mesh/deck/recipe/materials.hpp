@@ -5,7 +5,8 @@
 
 namespace clatter::mesh::deck {
 
-/// [material] tables: regions with the same material, axes and integration share one.
+/// [material] tables: regions with the same material, axes and integration share one. [[shell]]
+/// tables, which name them.
 void add_materials(const Deck& deck, Recipe& recipe);
 
 }  // namespace clatter::mesh::deck

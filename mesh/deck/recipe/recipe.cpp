@@ -28,7 +28,6 @@ class RecipeMaker {
     }
     systems();
     add_materials(deck_, out_);
-    file_.shells = deck_.shells;
     couplings();
     if (deck_.mesh.node_sets.contains(kHangingMidSideNodes))
       file_.straight_edges.push_back(

@@ -89,7 +89,10 @@ TEST(AbaqusMaterials, UnsupportedInputIsRefused) {
   EXPECT_NE(bad_material("*ELASTIC\n1,.3,0\n2,.3,100\n").find("depend on the temperature"),
             std::string::npos);
   EXPECT_EQ(material("*ELASTIC\n1,.3,0\n1,.3,100\n").constants.size(), 2u);
-  EXPECT_NE(bad_material("*ELASTIC, TYPE=LAMINA\n1,2,3\n").find("TYPE=LAMINA"), std::string::npos);
+  EXPECT_NE(bad_material("*ELASTIC, TYPE=COUPLED\n1,2,3\n").find("TYPE=COUPLED"),
+            std::string::npos);
+  EXPECT_NE(bad_material("*ELASTIC, TYPE=LAMINA\n5,4,.3,1,1,1\n").find("is a LAMINA, of shells"),
+            std::string::npos);
   EXPECT_NE(bad_material("*ELASTIC\n1\n").find("found '' in field 2"), std::string::npos);
   EXPECT_NE(bad_material("*ELASTIC\n").find("found 0 data lines"), std::string::npos);
   EXPECT_NE(bad_material("*DENSITY\n1\n").find("has no *ELASTIC"), std::string::npos);

@@ -2,6 +2,9 @@
 // S3 to S8R with a *SHELL SECTION beside solids.
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "mesh/deck/recipe/recipe.hpp"
 #include "tests/mesh/deck/abaqus/support.hpp"
 
@@ -47,8 +50,71 @@ TEST(AbaqusShells, OffsetAndDensityAreThoseOfTheSection) {
   EXPECT_EQ(read(with("OFFSET=-.25")).mesh.shells.at(0).offset, Eigen::Vector2d(0.05, 0.05));
   EXPECT_EQ(read(with("DENSITY=3.")).shells.at(0).section.area_mass, 3.0);
   EXPECT_THAT(refusal(with("OFFSET=FIELD")), HasSubstr("found OFFSET=FIELD, expected a number"));
-  EXPECT_THAT(refusal(with("COMPOSITE")), HasSubstr("COMPOSITE: shells of layers are not read"));
-  EXPECT_THAT(refusal(with("ORIENTATION=A")), HasSubstr("ORIENTATION"));
+  EXPECT_THAT(refusal(with("ORIENTATION=A")), HasSubstr("found no orientation 'A'"));
+}
+
+const std::string kFibres =
+    "*MATERIAL, NAME=Fibres\n*ELASTIC, TYPE=LAMINA\n140., 10., .3, 5., 4., 3.\n";
+
+TEST(AbaqusShells, LayersHaveAnglesFromTheOrientationOfTheSection) {
+  const std::string turned =
+      "*ORIENTATION, NAME=AXES\n0., 1., 0., -1., 0., 0.\n3, 0.\n"
+      "*ORIENTATION, NAME=PLY\n1., 0., 0., 0., 1., 0.\n3, 30.\n";
+  const auto section = [](const std::string& parameters, const std::string& lines) {
+    return "*SHELL SECTION, ELSET=WALL, COMPOSITE" + parameters + "\n" + lines;
+  };
+  Deck deck = read(kTwoShells + kFibres + turned +
+                   section(", ORIENTATION=AXES, OFFSET=SNEG",
+                           ".1, 3, FIBRES, 45., outer\n.2, , Steel\n.1, 3, Fibres, PLY\n"));
+  const recipe::Shell& shell = deck.shells.at(0);
+  ASSERT_EQ(shell.layers.size(), 3u);
+  EXPECT_EQ(shell.layers[0].material, "Fibres");
+  EXPECT_DOUBLE_EQ(shell.layers[0].angle, std::numbers::pi / 4.0);
+  EXPECT_EQ(shell.layers[1].angle, 0.0);
+  EXPECT_NEAR(shell.layers[2].angle, -std::numbers::pi / 3.0, 1e-15);
+  EXPECT_EQ(shell.section.thickness, 0.0);
+  const ShellBlock& block = deck.mesh.shells.at(0);
+  EXPECT_EQ(block.thickness.size(), 0);
+  EXPECT_TRUE(block.axis.row(1).isApprox(Eigen::RowVector3d(0.0, 1.0, 0.0), 1e-15));
+  EXPECT_NEAR(block.offset(0), 0.2, 1e-15);
+  EXPECT_THAT(deck.materials.at("Fibres").constants,
+              ElementsAre(140.0, 10.0, 10.0, 0.3, 0.0, 0.0, 5.0, 4.0, 3.0));
+  const recipe::File file = recipe_of(deck).file;
+  EXPECT_EQ(file.shells.at(0).layers.at(1).material, "Steel");
+  EXPECT_EQ(file.materials.size(), 2u);
+  const Deck mirrored =
+      read(kTwoShells + kFibres + section(", SYMMETRIC", ".1, 3, FIBRES, 45.\n.2, 3, FIBRES\n"));
+  EXPECT_EQ(mirrored.shells.at(0).layers.size(), 4u);
+  EXPECT_EQ(mirrored.shells.at(0).layers[3].thickness, 0.1);
+  EXPECT_EQ(mirrored.mesh.shells.at(0).axis.row(0), Eigen::RowVector3d(1.0, 0.0, 0.0));
+  EXPECT_THAT(refusal(kTwoShells + section("", ".1, 3, NONE\n")),
+              HasSubstr("found no material 'NONE'"));
+  EXPECT_THAT(refusal(kTwoShells + section("", "")), HasSubstr("expected one a layer"));
+  EXPECT_THAT(refusal(kTwoShells + section("", "0., 3, STEEL\n")),
+              HasSubstr("found a thickness of 0, expected more than 0"));
+}
+
+TEST(AbaqusShells, TheAxisOfAnOrientationIsNearTheNormal) {
+  // The axis about which the second line turns is that of the normal, by default the first one: the
+  // next one is projected.
+  const auto axis = [](const std::string& orientation) {
+    return read(kTwoShells + kFibres + "*ORIENTATION, NAME=AXES\n" + orientation +
+                "*SHELL SECTION, ELSET=WALL, MATERIAL=FIBRES, ORIENTATION=AXES\n.2\n")
+        .mesh.shells.at(0)
+        .axis.row(0)
+        .eval();
+  };
+  EXPECT_EQ(axis("0., 0., 1., 1., 0., 0.\n"), Eigen::RowVector3d(1.0, 0.0, 0.0));
+  EXPECT_EQ(axis("1., 0., 0., 0., 1., 0.\n3\n"), Eigen::RowVector3d(1.0, 0.0, 0.0));
+  EXPECT_TRUE(axis("1., 0., 0., 0., 1., 0.\n3, 90.\n").isApprox(Eigen::RowVector3d(0.0, 1.0, 0.0)));
+  EXPECT_THAT(refusal(kTwoShells + kFibres +
+                      "*ORIENTATION, NAME=AXES\n1., 0., 0., 0., 1., 0.\n"
+                      "*SHELL SECTION, ELSET=WALL, MATERIAL=FIBRES, ORIENTATION=AXES\n.2\n"),
+              HasSubstr("orientation AXES: found no second line"));
+  EXPECT_THAT(refusal(kTwoShells + kFibres +
+                      "*ORIENTATION, NAME=AXES\n1., 0., 0., 0., 0., 1.\n1, 0.\n"
+                      "*SHELL SECTION, ELSET=WALL, MATERIAL=FIBRES, ORIENTATION=AXES\n.2\n"),
+              HasSubstr("orientation AXES: its direction that is projected is along the normal"));
 }
 
 TEST(AbaqusShells, ThicknessMayBeThatOfNodes) {
@@ -105,6 +171,20 @@ TEST(AbaqusShells, PressuresLeaveOnTheSideOfTheNormal) {
               HasSubstr("found a pressure P on EALL, which has elements that are no shells"));
   EXPECT_THAT(refusal(kSheetDeck + "*SURFACE, NAME=TOP\nWALL, S3\n"),
               HasSubstr("found face 'S3' of shells, expected SPOS, SNEG or E1 to E4"));
+}
+
+TEST(AbaqusShells, AWallBetweenTwoSolidsIsNoSkin) {
+  const std::string deck =
+      "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n"
+      "8, 0, 1, 1\n11, 2, 0, 0\n12, 3, 0, 0\n13, 3, 1, 0\n14, 2, 1, 0\n15, 2, 0, 1\n16, 3, 0, 1\n"
+      "17, 3, 1, 1\n18, 2, 1, 1\n*ELEMENT, TYPE=C3D8, ELSET=CUBES\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+      "2, 11, 12, 13, 14, 15, 16, 17, 18\n*ELEMENT, TYPE=S4, ELSET=WALL\n21, 2, 11, 14, 3\n"
+      "22, 5, 6, 7, 8\n*MATERIAL, NAME=Steel\n*ELASTIC\n2.1E5, 0.3\n*DENSITY\n7.8E-9\n"
+      "*SOLID SECTION, ELSET=CUBES, MATERIAL=STEEL\n" +
+      kShellSection;
+  EXPECT_THAT(refusal(deck), HasSubstr("found edge 2-11 of shell S4 21 on nodes of solids"));
+  const Deck held = read(deck + "*BOUNDARY\n2, 4, 6\n3, 4, 6\n11, 4, 6\n14, 4, 6\n");
+  EXPECT_THAT(held.mesh.shells.at(0).ids, ElementsAre(21));
 }
 
 TEST(AbaqusShells, OnesOnNodesOfSolidsAreHinges) {

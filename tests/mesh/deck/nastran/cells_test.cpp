@@ -254,7 +254,8 @@ TEST(NastranRegions, PropertiesAndMaterialsThatAreNotOfSolidsAreNamed) {
               HasSubstr("cell 2: property 8 is a PLSOLID, expected a PSOLID"));
   EXPECT_THAT(refusal(kTet + "CTETRA,2,8,1,2,3,4\nPSOLID,8,3\nMAT8,3,70.,30.,.3\n"),
               HasSubstr("material 3 is a MAT8, expected a MAT1 or MAT9"));
-  EXPECT_EQ(refusal(kTet + "MAT8,3,70.,30.,.3\nMAT10,4,1.,1.\nPCOMP,9\nENDDATA\n"), "");
+  EXPECT_EQ(refusal(kTet + "MAT8,3,70.,30.,.3\nMAT10,4,1.,1.\nPCOMP,9,,,,,,,,+\n+,3,.1\nENDDATA\n"),
+            "");
 }
 
 // A writer lists the mid-side nodes of pyramids as 1-2, 4-1, 3-4, 2-3, 2-5, 1-5, 3-5, 4-5.

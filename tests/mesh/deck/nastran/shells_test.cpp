@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CQUAD4, CTRIA3 and the like beside solids.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
 
 #include "mesh/deck/recipe/recipe.hpp"
 #include "tests/mesh/deck/nastran/support.hpp"
@@ -98,13 +102,122 @@ TEST(NastranShells, WhatASectionCannotBeIsRefusedByName) {
   EXPECT_THAT(of("PSHELL,2,,.1,1\n"), HasSubstr("PSHELL 2: MID1 is blank"));
   EXPECT_THAT(of("PSHELL,2,1,.1,-1\n"), HasSubstr("MID2 is -1: plane strain"));
   EXPECT_THAT(of("PSHELL,2,1,.1,1,,1,,,+\n+,,,3\n"), HasSubstr("MID4 joins stretching to bending"));
-  EXPECT_THAT(of("PSHELL,2,1,.1,3\n"), HasSubstr("MID2 has NU = 0.3, expected 0.25 as MID1"));
-  EXPECT_THAT(of("PSHELL,2,8,.1,8\n"), HasSubstr("material 8 is a MAT8, expected a MAT1"));
+  EXPECT_THAT(of("PSHELL,2,7,.1,7\nMAT9,7\n"),
+              HasSubstr("material 7 is a MAT9, expected a MAT1, MAT2 or MAT8"));
   EXPECT_THAT(of("PSHELL,2,9,.1,9\n"), HasSubstr("PSHELL 2: found no material 9"));
   EXPECT_THAT(of("PSHELL,2,1,,1\n"), HasSubstr("CQUAD4 11: found a thickness of 0"));
   EXPECT_THAT(of("PSHELL,7,1,.1,1\n"), HasSubstr("CQUAD4 11: found no PSHELL 2"));
-  EXPECT_THAT(of("PCOMP,2,,,,,,,,+\n+,1,.1,0.,YES\n"),
-              HasSubstr("PCOMP 2: shells of layers are not read"));
+  EXPECT_THAT(of("PCOMP,2,,,,,,,MEM,+\n+,1,.1,0.,YES\n"),
+              HasSubstr("PCOMP 2: LAM is MEM: a laminate without part of its stiffness"));
+  EXPECT_THAT(of("PCOMP,2\n"), HasSubstr("PCOMP: found no ply, expected MID, T and THETA"));
+  EXPECT_THAT(of("PCOMP,2,,,,,,,,+\n+,1,0.\n"), HasSubstr("expected more than 0"));
+  EXPECT_THAT(of("PCOMP,2,,,,,,,,+\n+,9,.1\n"), HasSubstr("PCOMP 2: found no material 9"));
+  const std::string fibres = "PSHELL,2,5,.1,5\n";
+  EXPECT_THAT(of(fibres + "MAT8,5,1.,2.,.8,1.\n"),
+              HasSubstr("MAT8 5: found NU12 = 0.8, expected NU12**2 < E1 / E2"));
+  EXPECT_THAT(of(fibres + "MAT8,5,1.,2.,.3\n"),
+              HasSubstr("MAT8 5: found a modulus of 0, expected E1, E2, G12, G1Z and G2Z"));
+}
+
+TEST(NastranShells, OtherMaterialsOfBendingAndShearAreNamed) {
+  const std::string cells = kSheetGrids + "CQUAD4,11,2,1,2,5,4\n";
+  const auto other = read_deck(cells + "MAT1,1,200.,,.25\nMAT1,3,100.,,.3\nPSHELL,2,1,.1,3,2.\n");
+  EXPECT_EQ(other.shells.at(0).bending_material, "mat_3");
+  EXPECT_EQ(other.shells.at(0).shear_material, "mat_3");
+  EXPECT_EQ(other.shells.at(0).section.bending, 2.0);
+  // Faces of fibres on a core: of the core only the shear counts.
+  auto sandwich = read_deck(cells +
+                            "MAT8,6,17.,16.,.3,4.,3.,2.,5.,+\n+,1.-6,2.-6,20.\n"
+                            "MAT8,7,.1,.1,.1,.1,.45,.22\nPSHELL,2,6,.036,6,1416.,7,22.2,3.\n");
+  const recipe::Shell& shell = sandwich.shells.at(0);
+  EXPECT_EQ(shell.bending_material, "");
+  EXPECT_EQ(shell.shear_material, "mat_7");
+  EXPECT_EQ(shell.section.shear, 22.2);
+  EXPECT_EQ(shell.section.bending, 1416.0);
+  const mesh::deck::Material& face = sandwich.materials.at("mat_6");
+  EXPECT_EQ(face.kind, mesh::deck::Material::Kind::kOrthotropic);
+  EXPECT_THAT(face.constants, ElementsAre(17.0, 16.0, 16.0, 0.3, 0.0, 0.0, 4.0, 3.0, 2.0));
+  EXPECT_THAT(face.expansion, ElementsAre(1e-6, 2e-6, 0.0));
+  EXPECT_EQ(face.reference_temperature, 20.0);
+  EXPECT_EQ(sandwich.mesh.shells.at(0).axis.row(0), Eigen::RowVector3d(1.0, 0.0, 0.0));
+  // The core has no density, and no part in the mass.
+  const recipe::File file = mesh::deck::recipe_of(sandwich).file;
+  EXPECT_THAT(file.shells.at(0).shear_material, "mat_7");
+  EXPECT_TRUE(file.materials.at("mat_7").regions.empty());
+  EXPECT_THAT(mesh::deck::recipe_of(sandwich).text(),
+              HasSubstr("the material has no part in the mass"));
+  const auto any = read_deck(cells + "MAT2,1,5.,1.,2.,6.,3.,4.\nPSHELL,2,1,.1,1,,1\n");
+  EXPECT_THAT(any.materials.at("mat_1").constants,
+              ElementsAre(5, 1, 0, 2, 0, 0, 6, 0, 3, 0, 0, 6, 0, 0, 0, 4, 0, 0, 4, 0, 4));
+}
+
+TEST(NastranShells, LayersAreThoseOfPcomp) {
+  const std::string cells = kSheetGrids +
+                            "MAT8,8,140.,10.,.3,5.\nMAT1,1,200.,,.25\n"
+                            "CQUAD4,11,2,1,2,5,4,30.,.02\nCTRIA3,12,2,2,3,5,9\n"
+                            "CORD2R,9,,0.,0.,0.,0.,0.,1.,+\n+,0.,1.,0.\n";
+  auto deck = read_deck(cells + "PCOMP,2,-.3,7.,,,50.,,SYM,+\n+,8,.1,45.,YES,,,-45.,,+\n+,1,.2\n");
+  const recipe::Shell& shell = deck.shells.at(0);
+  ASSERT_EQ(shell.layers.size(), 6u);
+  EXPECT_EQ(shell.layers[1].material, "mat_8");
+  EXPECT_EQ(shell.layers[1].thickness, 0.1);
+  EXPECT_DOUBLE_EQ(shell.layers[1].angle, -std::numbers::pi / 4.0);
+  EXPECT_EQ(shell.layers[3].material, "mat_1");
+  EXPECT_DOUBLE_EQ(shell.layers[5].angle, std::numbers::pi / 4.0);
+  EXPECT_DOUBLE_EQ(shell.thickness(), 0.8);
+  EXPECT_EQ(shell.section.area_mass, 7.0);
+  EXPECT_EQ(deck.materials.at("mat_8").reference_temperature, 50.0);
+  EXPECT_THAT(notes_of(deck), HasSubstr("G1Z or G2Z of MAT8 8 is blank"));
+  // Triangles first. Z0 + t/2, and ZOFFS beside it.
+  const mesh::ShellBlock &triangle = deck.mesh.shells.at(0), &quad = deck.mesh.shells.at(1);
+  EXPECT_NEAR(triangle.offset(0), 0.1, 1e-15);
+  EXPECT_NEAR(quad.offset(0), 0.12, 1e-15);
+  EXPECT_TRUE(triangle.axis.row(0).isApprox(Eigen::RowVector3d(0.0, 1.0, 0.0), 1e-15));
+  EXPECT_TRUE(quad.axis.row(0).isApprox(Eigen::RowVector3d(std::sqrt(0.75), 0.5, 0.0), 1e-15));
+  EXPECT_EQ(quad.thickness.size(), 0);
+  const recipe::File file = mesh::deck::recipe_of(deck).file;
+  EXPECT_THAT(file.shells.at(0).layers.at(2).material, "mat_1");
+  EXPECT_TRUE(file.materials.at("mat_1").regions.empty());
+  const auto global = read_deck(cells + "PCOMPG,2,,,,,,,,+\n+,101,8,.1,45.,YES,,,,+\n+,102,1,.3\n");
+  EXPECT_EQ(global.shells.at(0).layers.size(), 2u);
+  EXPECT_EQ(global.shells.at(0).layers[1].thickness, 0.3);
+  EXPECT_EQ(global.shells.at(0).layers[1].angle, 0.0);
+  EXPECT_EQ(global.mesh.shells.at(0).offset.size(), 0);
+}
+
+TEST(NastranShells, AWallBetweenTwoSolidsIsNoSkin) {
+  // Two cubes with a gap; grids 1 to 8 and 11 to 18.
+  std::string grids;
+  for (int cube = 0; cube < 2; ++cube)
+    for (int k = 0; k < 8; ++k)
+      grids +=
+          fmt::format("GRID,{},,{}.,{}.,{}.\n", 10 * cube + k + 1,
+                      2 * cube + (k % 4 == 1 || k % 4 == 2 ? 1 : 0), k % 4 >= 2 ? 1 : 0, k / 4);
+  const std::string deck = kSheetSection + grids +
+                           "PSOLID,9,1\nCHEXA,1,9,1,2,3,4,5,6,+\n+,7,8\n"
+                           "CHEXA,2,9,11,12,13,14,15,16,+\n+,17,18\n"
+                           "CQUAD4,21,2,2,11,14,3\nCQUAD4,22,2,5,6,7,8\n";
+  EXPECT_THAT(refusal(deck), HasSubstr("found edge 2-11 of shell CQUAD4 21 on nodes of solids"));
+  const auto held = read_deck(deck + "SPC1,1,456,2,3,11,14\n");
+  EXPECT_THAT(held.mesh.shells.at(0).ids, ElementsAre(21));
+  EXPECT_EQ(held.mesh.shells.size(), 1u);
+  EXPECT_EQ(held.mesh.surface("pid_2").face_count(), 1);
+  // Half of a face is neither.
+  EXPECT_THAT(refusal(deck + "SPC1,1,456,2,3,11,14\nCTRIA3,23,2,15,16,17\n"),
+              HasSubstr("found 1 CTRIA3 whose corners all belong to solids"));
+}
+
+TEST(NastranShells, LayersKeepTheSideOfTheDeck) {
+  const std::string cells =
+      kSheetGrids + "MAT1,1,200.,,.25\nMAT1,3,100.,,.25\nPCOMP,2,,,,,,,,+\n+,1,.1,,,3,.1\n";
+  const auto deck = read_deck(cells + "CQUAD4,11,2,1,2,5,4\nCQUAD4,12,2,2,5,6,3\n");
+  EXPECT_EQ(deck.mesh.shells.at(0).nodes.row(1), (Eigen::RowVector<int32_t, 4>(1, 4, 5, 2)));
+  EXPECT_THAT(refusal(cells + "CQUAD4,11,2,1,2,5,4,,,+\n+,,,.3,.3,.3,.3\n"),
+              HasSubstr("found T1 = 0.3, expected blank fields: its PCOMP has the thickness"));
+  EXPECT_THAT(
+      refusal(kSheetGrids + "MAT8,8,140.,10.,.3,5.\nPSHELL,2,8,.1,8\nCQUAD4,11,2,1,2,5,4,9\n"
+                            "CORD2C,9,,0.,0.,0.,0.,0.,1.,+\n+,0.,1.,0.\n"),
+      HasSubstr("CQUAD4 11: MCID 9 is a curved system, expected a rectangular one"));
 }
 
 TEST(NastranShells, QuadraticOnesAreFourLinearOnes) {
@@ -204,7 +317,7 @@ TEST(NastranShells, OnesOnNodesOfSolidsAreHingesUnlessSomethingTurnsThese) {
   EXPECT_EQ(deck.mesh.shells.at(0).region, 1);
   EXPECT_THAT(deck.mesh.regions, ElementsAre("pid_1", "pid_2"));
   EXPECT_THAT(refusal(kSheetSection + kSolid + "CQUAD4,50,2,15,16,13,14\n"),
-              HasSubstr("found 1 CQUAD4 whose corners all belong to solids"));
+              HasSubstr("found edge 15-16 of shell CQUAD4 50 on nodes of solids"));
 }
 
 TEST(NastranShells, AMeshWithoutPropertiesHasRegionsWithoutASection) {

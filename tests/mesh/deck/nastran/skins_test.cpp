@@ -30,7 +30,7 @@ TEST(NastranSkins, FacesOfSolidsAreTheSurfaceOfTheirProperty) {
   EXPECT_THAT(deck.notes[2], HasSubstr("t.bdf:16: PSHELL 2 gives stiffness to faces of solids, 0.5 "
                                        "thick, 3.9 of mass in the deck's units: left out"));
   EXPECT_THAT(deck.notes[3],
-              HasSubstr("t.bdf:17: PCOMP 3 gives stiffness to faces of solids: left"));
+              HasSubstr("t.bdf:17: PCOMP 3 gives stiffness to faces of solids, 0.1 thick"));
 }
 
 TEST(NastranSkins, ALinearShellLiesOnAQuadraticFace) {
@@ -48,8 +48,8 @@ TEST(NastranSkins, ALinearShellLiesOnAQuadraticFace) {
 
 TEST(NastranSkins, OthersBetweenSolidsAreRefusedUnlessTheDeckHasNoProperties) {
   const std::string wall = "CQUAD4,10,2,1,2,9,5\n", across = "CQUAD4,10,2,1,2,7,8\n";
-  EXPECT_THAT(refusal(kCube + across + "PSHELL,2,1,.5\nENDDATA\n"),
-              HasSubstr("t.bdf:14: found 1 CQUAD4 whose corners all belong to solids"));
+  EXPECT_THAT(refusal(kCube + across + "PSHELL,2,1,.5,1\nENDDATA\n"),
+              HasSubstr("t.bdf:14: found edge 1-2 of shell CQUAD4 10 on nodes of solids"));
   std::string bare = kCube;
   bare.erase(0, bare.find("GRID"));
   const auto deck = read_deck(bare + wall + "ENDDATA\n");
