@@ -48,7 +48,7 @@ TEST_P(FilmContent, HardR8_ASkirtThatRunsDryHoldsNoNegativeOil) {
     element.accept_step(time + dt);
     const RowMatrix fill = element.snapshot().front().fill;
     lowest = std::min(lowest, fill.minCoeff());
-    EXPECT_LE(fill.mean(), last);  // oil only leaves
+    EXPECT_LE(fill.mean(), last * (1.0 + 1e-14));  // oil only leaves, but for rounding of the sum
     last = fill.mean();
   }
   std::printf("R8: skirt without supply, Courant %4.1f: smallest fill %.1e, last mean %.1e\n",
