@@ -19,6 +19,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kNoForce = 1e-10;  // rounding of assembly and elimination leaves some 1e-13
+/// Twice the strain energy of a motion of unit mass, over the largest K_ii / M_ii of a reduced
+/// model; rounding of the reduction leaves some 1e-17.
+constexpr double kNoEnergy = 1e-14;
 
 void join_entries(const SparseMatrix& lower, DofUnion& sets) {
   for (int j = 0; j < lower.outerSize(); ++j)
@@ -152,11 +155,14 @@ MatrixXd free_motions(const rom::ReducedModel& model, const std::vector<int32_t>
   const MatrixXd R = model.rigid(left, Eigen::all);
   const MatrixXd U = R * moving_combinations(R.transpose() * M * R);
   if (U.cols() == 0) return U;
-  // All coordinates are coupled: rows are scaled to a stiffness with unit diagonal.
-  const VectorXd scale =
-      K.diagonal().unaryExpr([](double k) { return k > 0.0 ? 1.0 / std::sqrt(k) : 1.0; });
-  const double size = (scale.cwiseInverse().asDiagonal() * U).cwiseAbs().maxCoeff();
-  return U * forceless(scale.asDiagonal() * (K * U) / size);
+  // Forces are no measure: a coordinate that is a motion itself has a row of rounding in K, which
+  // is all that a force could be compared with.
+  double fastest = 0.0;
+  for (Index i = 0; i < K.rows(); ++i)
+    if (M(i, i) > 0.0) fastest = std::max(fastest, K(i, i) / M(i, i));
+  const dense::Eigenpairs energy = dense::symmetric_eigen(U.transpose() * K * U);
+  const Index free = (energy.values.array() <= kNoEnergy * fastest).count();
+  return free == U.cols() ? U : U * energy.vectors.leftCols(free);
 }
 
 FreeMotions free_motions(const fe::FeModel& model) {

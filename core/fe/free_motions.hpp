@@ -41,8 +41,8 @@ FreeMotions free_motions(const RigidProducts& products, const Eigen::MatrixXd& r
 /// The same for a model with its supports: none if held, six if free.
 FreeMotions free_motions(const fe::FeModel& model);
 
-/// The free motions of a reduced model restricted to coordinates `left`, |left| x m, M-orthonormal;
-/// rows of K_rr are scaled by its diagonal, since their zeros are accurate only to rounding.
+/// The free motions of a reduced model restricted to coordinates `left`, |left| x m, M-orthonormal:
+/// those whose energy is rounding beside that of its stiffest coordinate.
 Eigen::MatrixXd free_motions(const rom::ReducedModel& model, const std::vector<int32_t>& left);
 
 /// Disjoint sets of DoFs (Tarjan's union-find with path halving).

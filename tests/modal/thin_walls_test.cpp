@@ -63,6 +63,33 @@ TEST(HardN15, SolvesDoNotGrowAsASheetGetsThinAndItsFrequenciesAreThoseOfThePlate
   }
 }
 
+/// A body of 1.35 kg whose motion along z is a coordinate of its own, with a stiff mode.
+rom::ReducedModel sliding_body(double stiffness) {
+  rom::ReducedModel model;
+  model.name = "body";
+  model.n_boundary = 1;
+  model.M_rr = Eigen::Vector2d(1.35, 1.0).asDiagonal();
+  model.K_rr = Eigen::Vector2d(stiffness, 1.5e11).asDiagonal();
+  model.rigid = MatrixXd::Zero(2, 6);
+  model.rigid(0, 2) = 1.0;
+  return model;
+}
+
+TEST(HardB4, ARowOfRoundingIsARigidMotion) {
+  for (const double rounding : {1.6e-7, -1.6e-7, 0.0}) {
+    const rom::ReducedModel model = sliding_body(rounding);
+    EXPECT_EQ(fe::free_motions(model, {0, 1}).cols(), 1) << rounding;
+    modes::ModesOptions options;
+    options.count = 2;
+    const sparse::ModeSet found = modes::analyse(model, options).modes;
+    EXPECT_EQ(found.rigid, 1) << rounding;
+    EXPECT_EQ(found.known_rigid, 1) << rounding;
+    EXPECT_LE(found.residuals[0], 1e-6) << rounding;
+  }
+  // A support of 0.03 Hz is one.
+  EXPECT_EQ(fe::free_motions(sliding_body(0.05), {0, 1}).cols(), 0);
+}
+
 TEST(HardN15, ACompactBodyPaysNothingForTheSearchOfItsShift) {
   const FeModel model = sheet(0.1, 0.3, "", 6);
   sparse::EigenOptions options;

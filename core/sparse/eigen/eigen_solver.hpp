@@ -43,7 +43,7 @@ struct ModeSet {
   Eigen::VectorXd values;     // lambda [rad2/s2], ascending
   Eigen::MatrixXd vectors;    // n x m, M-orthonormal, largest entry of each positive
   Eigen::VectorXd residuals;  // |K x - lambda M x| / (|lambda - sigma| |M x|); of rigid-body modes
-                              // |K x| / | |K| |x| |
+                              // |K x| / (| |K| |x| | + |sigma| |M x|)
   Eigen::VectorXd rounding;   // eps |x|^T |K| |x| / 2 lambda, upper bound: relative change of
                               // a frequency by rounding of K's entries; 0 for rigid-body modes
   Eigen::VectorXd errors;     // of kAmls: estimated relative errors of frequencies; else empty

@@ -127,7 +127,10 @@ void insert_rigid(const MatrixPencil& pencil, const Eigen::MatrixXd& rigid, bool
   prepend(modes.values, VectorXd::Zero(known));
   if (modes.errors.size() > 0) prepend(modes.errors, VectorXd::Zero(known));
   const VectorXd force = team.norms(pencil.stiffness_times(rigid));
-  prepend(modes.residuals, force.cwiseQuotient(team.norms(pencil.magnitude_times(rigid))));
+  // In a reduced model |K| |x| may be rounding as well.
+  const VectorXd size = team.norms(pencil.magnitude_times(rigid)) +
+                        std::abs(modes.sigma) * team.norms(pencil.mass_times(rigid));
+  prepend(modes.residuals, force.cwiseQuotient(size));
   // In place: the vectors may fill half the memory.
   modes.vectors.conservativeResize(n, known + found);
   double* data = modes.vectors.data();
