@@ -5,10 +5,14 @@ namespace clatter::assembly {
 
 HeatBodies::HeatBodies(const mesh::Mesh& mesh) : parent_(static_cast<size_t>(mesh.nodes.rows())) {
   std::iota(parent_.begin(), parent_.end(), 0);
-  for (const mesh::CellBlock& block : mesh.cells)
-    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
-      for (Eigen::Index a = 1; a < block.nodes.cols(); ++a)
-        join(block.nodes(c, 0), block.nodes(c, a));
+  const auto join_cells = [&](const auto& blocks) {
+    for (const auto& block : blocks)
+      for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
+        for (Eigen::Index a = 1; a < block.nodes.cols(); ++a)
+          join(block.nodes(c, 0), block.nodes(c, a));
+  };
+  join_cells(mesh.cells);
+  join_cells(mesh.shells);
 }
 
 int32_t HeatBodies::root(int32_t node) const {

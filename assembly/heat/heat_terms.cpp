@@ -69,8 +69,10 @@ std::vector<HeatTerms> heat_terms(const PartData& part, const HeatSpec& spec) {
                      fe::flux_heat(mesh.nodes, mesh.surface(flux.surface), on_surface(flux.flux))});
   }
   for (const HeatSpec::Source& source : spec.sources)
-    terms.push_back({fmt::format("source {}", fmt::join(source.regions, " ")), none,
-                     fe::volume_heat(mesh, source.power)});
+    terms.push_back(
+        {fmt::format("source {}", fmt::join(source.regions, " ")), none,
+         fe::volume_heat(mesh, source.power) +
+             fe::sheet_heat(mesh, part.recipe.materials, part.recipe.sections, source.power)});
   return terms;
 }
 

@@ -92,6 +92,11 @@ Elimination eliminate_temperatures(const PartData& part, const HeatSpec& spec,
                                    const FixedNodes& fixed, HeatBodies& bodies, SparseMatrix& K) {
   FollowingNodes following(part, fixed);
   for (const TieSpec& tie : part.recipe.ties) {
+    if (!tie.edge.empty())
+      throw InputError(
+          fmt::format("{}: found the tie {} of an edge, through which no heat flows, "
+                      "expected ties of faces alone",
+                      spec.where, tie.name));
     TieSpec resolved = tie;
     const Projection found = project_tie(part, resolved);
     for (const ProjectedNode& row : found.tied)
@@ -217,7 +222,9 @@ std::map<std::string, fe::HeatField> solve_heat(const PartData& part,
                                                 const fe::NodePattern& pattern) {
   std::map<std::string, fe::HeatField> fields;
   if (part.recipe.heats.empty()) return fields;
-  const SparseMatrix cells = fe::conduction(part.mesh, part.recipe.materials, pattern);
+  SparseMatrix cells = fe::conduction(part.mesh, part.recipe.materials, pattern);
+  if (!part.mesh.shells.empty())
+    cells += fe::sheet_conduction(part.mesh, part.recipe.materials, part.recipe.sections);
   for (const HeatSpec& spec : part.recipe.heats) {
     const fe::HeatField& field = fields[spec.name] = solve_one_heat(part, spec, cells);
     say_field(spec, field);

@@ -87,7 +87,7 @@ Recipe Resolver::resolve(const recipe::File& file) {
   // In this order: later tables name earlier ones.
   Recipe out;
   out.materials = materials_;
-  out.sections = sections(file);
+  out.sections = sections_ = sections(file);
   out.mass = file.mass.form;
   out.damping = file.damping;
   out.points = each(file.points, &Resolver::point);

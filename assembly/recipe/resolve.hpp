@@ -87,7 +87,8 @@ class Resolver {
   double metre_ = 1.0;                        // of CSV files [m]
   std::vector<std::filesystem::path> files_;  // read in addition
   std::map<std::string, fe::Material> named_materials_;
-  std::vector<fe::Material> materials_;  // of the regions
+  std::vector<fe::Material> materials_;     // of the regions
+  std::vector<fe::ShellSection> sections_;  // likewise; of those with shells
 };
 
 }  // namespace clatter::assembly

@@ -2,6 +2,8 @@
 // [[heat]].
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "assembly/recipe/resolve.hpp"
 
 namespace clatter::assembly {
@@ -52,11 +54,6 @@ HeatSpec::Source Resolver::source(const recipe::Heat::HeatSource& source) const 
 
 HeatSpec Resolver::heat(const recipe::Heat& heat, size_t) {
   HeatSpec spec{.name = heat.name, .where = where(heat.source, "heat " + heat.name)};
-  if (!names_.mesh.shells.empty())
-    heat.source.fail("name", fmt::format("found the shells of region \"{}\", which do not conduct, "
-                                         "expected solids alone: a [[load]] of temperature takes a "
-                                         "field of another program",
-                                         names_.mesh.regions[names_.mesh.shells[0].region]));
   for (const auto& one : heat.films) spec.films.push_back(film(one));
   for (const auto& one : heat.fluxes) spec.fluxes.push_back(flux(one));
   for (const auto& one : heat.fixed)
@@ -66,12 +63,20 @@ HeatSpec Resolver::heat(const recipe::Heat& heat, size_t) {
   for (const auto& one : heat.contacts) check_known(one.source, "tie", one.tie, names_.ties);
   spec.contacts = heat.contacts;
   names_.heats.insert(heat.name);
-  for (size_t r = 0; r < materials_.size(); ++r)
-    if (materials_[r].conductivity.isZero(0.0))
+  for (size_t r = 0; r < materials_.size(); ++r) {
+    const std::vector<fe::ShellLayer>& layers = sections_[r].layers;
+    const bool insulates = layers.empty()
+                               ? materials_[r].conductivity.isZero(0.0)
+                               : std::ranges::any_of(layers, [](const fe::ShellLayer& layer) {
+                                   return layer.material.conductivity.isZero(0.0);
+                                 });
+    if (insulates)
       heat.source.fail("name",
-                       fmt::format("found no conductivity of the material of region \"{}\", "
-                                   "expected one [W/(m K)]",
+                       fmt::format("found no conductivity of {} of region \"{}\", expected one "
+                                   "[W/(m K)]",
+                                   layers.empty() ? "the material" : "a material in the layers",
                                    names_.mesh.regions[r]));
+  }
   return spec;
 }
 

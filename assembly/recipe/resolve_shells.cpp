@@ -2,6 +2,8 @@
 // [[shell]].
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "assembly/recipe/resolve.hpp"
 
 namespace clatter::assembly {

@@ -18,6 +18,7 @@
 #include "core/base/sparse.hpp"
 #include "core/fe/material.hpp"
 #include "core/fe/pattern.hpp"
+#include "core/fe/shell_section.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/mesh/validity.hpp"
 
@@ -36,6 +37,17 @@ SparseMatrix conduction(const mesh::Mesh& mesh, const std::vector<Material>& mat
 /// int N^T s dV (n_nodes) [W] of a source s [W/m3] that is constant in each region; `source` has
 /// one entry per region.
 Eigen::VectorXd volume_heat(const mesh::Mesh& mesh, const std::vector<double>& source);
+
+/// Conduction along the shells of a mesh, whose temperature is the same through their thickness:
+/// int grad N^T (sum k t) grad N dA over the middle of the sheet, layers in parallel, n_nodes x
+/// n_nodes, lower triangle [W/K]; rows sum to zero.
+SparseMatrix sheet_conduction(const mesh::Mesh& mesh, const std::vector<Material>& materials,
+                              const std::vector<ShellSection>& sections);
+
+/// int N^T s t dA (n_nodes) [W] of a source s [W/m3] in the shells of each region.
+Eigen::VectorXd sheet_heat(const mesh::Mesh& mesh, const std::vector<Material>& materials,
+                           const std::vector<ShellSection>& sections,
+                           const std::vector<double>& source);
 
 /// A value on a surface: at a position [m], or at each node of the mesh (n_nodes, of which those of
 /// the surface are used), between them by the shape functions of the faces.
