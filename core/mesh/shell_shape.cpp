@@ -30,7 +30,9 @@ ShellShape shape_of_shell(std::span<const Eigen::Vector3d> x) {
   out.corner = out.jacobian = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < n; ++i) {
     const Eigen::Vector3d &a = side[(i + n - 1) % n], &b = side[i];
-    const double at = a.cross(b).dot(normal) / area;
+    const Eigen::Vector3d own = a.cross(b);
+    const double at = own.dot(normal) / area;
+    if (own.norm() > 0.0) out.upright = std::min(out.upright, at / own.norm());
     out.corner = std::min(out.corner, at / area);
     out.jacobian = std::min(out.jacobian, at / (ideal * a.norm() * b.norm()));
   }

@@ -12,6 +12,7 @@ struct ShellShape {
                           // mean normal; below 0: concave or folded
   double jacobian = 0.0;  // the same over the product of the two sides; 1 of a square and of an
                           // equilateral triangle
+  double upright = 1.0;   // smallest cosine between the normal at a corner and the mean one
   double warp = 0.0;      // distance between both diagonals over the root of the area
   double aspect = 1.0;    // longest side over the shortest
 };

@@ -14,9 +14,10 @@ OpenFaces::Corners OpenFaces::sorted(std::span<const int32_t> corners) {
 
 void OpenFaces::add(std::span<const int32_t> corners) { faces_.push_back({sorted(corners)}); }
 
-OpenFaces::Face* OpenFaces::find(const Corners& corners) {
+size_t OpenFaces::find(const Corners& corners) const {
   const auto at = std::ranges::lower_bound(faces_, corners, {}, &Face::corners);
-  return at != faces_.end() && at->corners == corners ? &*at : nullptr;
+  const bool found = at != faces_.end() && at->corners == corners;
+  return found ? static_cast<size_t>(at - faces_.begin()) : faces_.size();
 }
 
 void OpenFaces::close(CellType type, std::span<const int32_t> nodes) {
@@ -27,7 +28,8 @@ void OpenFaces::close(CellType type, std::span<const int32_t> nodes) {
     is_sorted_ = true;
   }
   const auto mark = [&](std::span<const int32_t> corners) {
-    if (Face* face = find(sorted(corners))) face->closed = true;
+    const size_t at = find(sorted(corners));
+    if (at < faces_.size()) faces_[at].closed = true;
   };
   for (const CellFace& face : traits(type).faces) {
     const auto count = static_cast<size_t>(traits(face.type).corners);
@@ -41,8 +43,8 @@ void OpenFaces::close(CellType type, std::span<const int32_t> nodes) {
 }
 
 bool OpenFaces::is_open(std::span<const int32_t> corners) const {
-  const Face* face = const_cast<OpenFaces*>(this)->find(sorted(corners));
-  return face != nullptr && !face->closed;
+  const size_t at = find(sorted(corners));
+  return at < faces_.size() && !faces_[at].closed;
 }
 
 }  // namespace clatter::mesh::deck

@@ -29,7 +29,8 @@ class OpenFaces {
     bool closed = false;
   };
   static Corners sorted(std::span<const int32_t> corners);
-  Face* find(const Corners& corners);
+  /// Index; the number of faces for none.
+  size_t find(const Corners& corners) const;
 
   std::vector<Face> faces_;
   bool is_sorted_ = false;

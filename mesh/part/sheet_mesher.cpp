@@ -23,8 +23,9 @@
 namespace clatter::mesh {
 namespace {
 
-// Of ShellShape: a quadrilateral beyond them becomes two triangles.
-constexpr double kMostWarp = 0.25, kLeastJacobian = 0.15;
+// Of ShellShape: a quadrilateral beyond them becomes two triangles. With a corner of less than 0.1,
+// or a normal of one more than 60 degrees off, it is no shell (core/fe/shell_quad.cpp).
+constexpr double kMostWarp = 0.25, kLeastJacobian = 0.15, kLeastCorner = 0.2, kUpright = 0.75;
 constexpr double kGrowth = 0.3;         // of the size per distance from finer edges
 constexpr double kNearlyAll = 0.9;      // of the size: edges that are hardly finer
 constexpr double kMostPoints = 2000.0;  // of the distance from a curve
@@ -78,7 +79,8 @@ SheetCellsOfFaces cells_of(const RawSheet& raw, const SheetFaces& sheet, double 
       const int32_t* quad = cells.quad4.data() + 4 * c;
       const auto x = corners_of(raw.nodes, quad);
       const ShellShape shape = shape_of_shell(x);
-      if (shape.warp > kMostWarp || shape.jacobian < kLeastJacobian) {
+      if (shape.warp > kMostWarp || shape.jacobian < kLeastJacobian ||
+          shape.corner < kLeastCorner || shape.upright < kUpright) {
         split(x, quad, face, triangles);
         continue;
       }

@@ -77,6 +77,16 @@ class Shells(unittest.TestCase):
     def test_a_pan_agrees_with_quadratic_solids(self):
         np.testing.assert_allclose(self.pan() / SOLIDS, 1.0, atol=8e-3)
 
+    def test_pans_of_coarse_fillets_are_shells_throughout(self):
+        # Quadrilaterals of fillets that are almost triangles, and warped, are two triangles.
+        (self.folder / "a.fe.toml").write_text('[material.steel]\nregions = ["pan"]\nE_gpa = 210\nnu = 0.3\nrho = 7850\n')
+        for size, turn in ((7, 11), (12, 10)):
+            (self.folder / "a.mesh.toml").write_text('name = "pan"\nkind = "pan"\n[pan]\nthickness = 1.5\n[mesh]\n'
+                                                     f"element_size_mm = {size}\nelements_per_turn = {turn}\n")
+            with self.subTest(size=size, turn=turn):
+                self.run_stages(("mesh", "a.mesh.toml", "-o", "a.mesh.h5"),
+                                ("assembly", "a.mesh.h5", "-c", "a.fe.toml", "-o", "a.fe.h5"))
+
     def test_a_pan_of_cad_agrees_with_quadratic_solids(self):
         (self.folder / "cad.mesh.toml").write_text('name = "pan"\nkind = "pan"\n[pan]\nthickness = 1.5\n[mesh]\n'
                                                    "element_size_mm = 5\nelements_per_turn = 16\n")
