@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "assembly/recipe/resolve.hpp"
+#include "core/base/log.hpp"
 
 namespace clatter::assembly {
 
@@ -47,6 +48,14 @@ void Resolver::check_sheet(const recipe::File& file, const mesh::ShellBlock& blo
     file.source.fail("shell", fmt::format("found no thickness of region \"{}\", expected "
                                           "[[shell]] with regions = [\"{}\"] and thickness",
                                           region, region));
+  constexpr double kSame = 1e-6;
+  const bool own = block.thickness.size() > 0 && !section.layers.empty();
+  if (own &&
+      ((block.thickness.array() - section.thickness).abs() > kSame * section.thickness).any())
+    warn(fmt::format(
+        "region {}: its layers are {:.6g} m thick, the mesh has {:.6g} to {:.6g} m: the "
+        "layers are scaled to it",
+        region, section.thickness, block.thickness.minCoeff(), block.thickness.maxCoeff()));
   for (const auto& [name, one] : file.materials)
     if (std::ranges::find(one.regions, region) != one.regions.end())
       (void)named_material(one.source, "regions", name);

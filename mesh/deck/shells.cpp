@@ -45,12 +45,9 @@ class ShellAdder {
 
   std::vector<ShellHinge> finish() {
     for (auto& [key, rows] : rows_) add_block(key.first, key.second, rows);
-    std::vector<bool> layered;
-    for (const ShellBlock& block : deck_.mesh.shells) {
-      const recipe::Shell* shell = section_of(block.region);
-      layered.push_back(shell != nullptr && !shell->layers.empty());
-    }
-    const int64_t turned = orient_shells(deck_.mesh.shells, layered);
+    std::vector<bool> keep;
+    for (const ShellBlock& block : deck_.mesh.shells) keep.push_back(has_side(block.region));
+    const int64_t turned = orient_shells(deck_.mesh.shells, keep);
     const auto note = [&](size_t i, const std::string& text) {
       deck_.notes.push_back(fmt::format("{}: {}", where_(i), text));
     };
@@ -127,6 +124,20 @@ class ShellAdder {
     if (std::ranges::any_of(rows.axis, [](double along) { return along != 0.0; }))
       block.axis = Eigen::Map<const RowMatrix>(rows.axis.data(), cells, 3);
     block.ids = std::move(rows.ids);
+  }
+
+  // Turned over, layers would be in another order, and shear of a material that is not orthotropic
+  // would stretch it the other way.
+  bool has_side(int32_t region) const {
+    const recipe::Shell* shell = section_of(region);
+    if (shell == nullptr) return false;
+    const auto leans = [&](const std::string& material) {
+      const auto found = deck_.materials.find(material);
+      return found != deck_.materials.end() && found->second.kind == Material::Kind::kAnisotropic;
+    };
+    return !shell->layers.empty() || leans(shell->bending_material) ||
+           leans(shell->shear_material) ||
+           leans(deck_.regions[static_cast<size_t>(region)].material);
   }
 
   // Null in a mesh without properties.

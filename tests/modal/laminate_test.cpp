@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "block_mesh.hpp"
+#include "core/base/log.hpp"
 #include "modal/statics.hpp"
 #include "sheet.hpp"
 #include "small_solver.hpp"
@@ -111,6 +112,18 @@ TEST(LaminateModel, WeighsAsItsLayers) {
   EXPECT_NEAR(model.mass.centre(2), 0.01 + z, 1e-12);
   const double about_x = m * (kWide * kWide / 12.0 + second / area - z * z);
   EXPECT_NEAR(model.mass.inertia(0, 0), about_x, 1e-12 * about_x);
+}
+
+TEST(LaminateModel, LayersThatAreNotAsThickAsTheMeshAreSaid) {
+  mesh::Mesh mesh = sheet(kLong, kWide, 2, 2);
+  mesh.shells[0].thickness = RowMatrix::Constant(4, 4, 0.0015);
+  std::string said;
+  set_log_sink([&](bool, const std::string& text) { said += text; });
+  const auto model = build_all(mesh, shell(layer("iron", 0.001))).model;
+  set_log_sink({});
+  EXPECT_THAT(said, HasSubstr("its layers are 0.001 m thick, the mesh has 0.0015 to 0.0015 m"));
+  const double m = 8000.0 * 0.0015 * kLong * kWide;
+  EXPECT_NEAR(model.mass.mass, m, 1e-12 * m);
 }
 
 TEST(LaminateModel, WhatItNeedsIsSaid) {

@@ -212,6 +212,11 @@ TEST(NastranShells, LayersKeepTheSideOfTheDeck) {
       kSheetGrids + "MAT1,1,200.,,.25\nMAT1,3,100.,,.25\nPCOMP,2,,,,,,,,+\n+,1,.1,,,3,.1\n";
   const auto deck = read_deck(cells + "CQUAD4,11,2,1,2,5,4\nCQUAD4,12,2,2,5,6,3\n");
   EXPECT_EQ(deck.mesh.shells.at(0).nodes.row(1), (Eigen::RowVector<int32_t, 4>(1, 4, 5, 2)));
+  // So does a material whose shear stretches it.
+  const auto leaning = read_deck(kSheetGrids +
+                                 "MAT2,1,5.,1.,2.,6.,3.,4.\nPSHELL,2,1,.1,1,,1\n"
+                                 "CQUAD4,11,2,1,2,5,4\nCQUAD4,12,2,2,5,6,3\n");
+  EXPECT_EQ(leaning.mesh.shells.at(0).nodes.row(1), (Eigen::RowVector<int32_t, 4>(1, 4, 5, 2)));
   EXPECT_THAT(refusal(cells + "CQUAD4,11,2,1,2,5,4,,,+\n+,,,.3,.3,.3,.3\n"),
               HasSubstr("found T1 = 0.3, expected blank fields: its PCOMP has the thickness"));
   EXPECT_THAT(
