@@ -29,8 +29,16 @@ void warn_of_units(const fe::FeModel& model, const std::string& config) {
   warn_implausible(config, doubts);
 }
 
-/// Imports matrices of other programs or assembles on the mesh; adds the files read to `inputs`.
-BuiltModel make_model(const std::filesystem::path& mesh_path, const Config& config,
+/// "engine" of engine.fe.toml.
+std::string name_of(const std::filesystem::path& config) {
+  const std::string file = config.filename().string();
+  return file.substr(0, file.find('.'));
+}
+
+/// Imports matrices of other programs or assembles on the mesh and reduced parts; adds the files
+/// read to `inputs`.
+BuiltModel make_model(const std::filesystem::path& mesh_path,
+                      const std::filesystem::path& config_path, const Config& config,
                       std::vector<std::filesystem::path>& inputs, StepClock& clock) {
   std::optional<mesh::Mesh> mesh;
   if (!mesh_path.empty()) {
@@ -50,7 +58,14 @@ BuiltModel make_model(const std::filesystem::path& mesh_path, const Config& conf
     clock.lap("import");
     return built;
   }
-  if (!mesh) throw InputError("command line: expected a mesh (.mesh.h5)");
+  if (!mesh && !config.has("part"))
+    throw InputError(
+        "command line: expected a mesh (.mesh.h5), or [[part]] tables with reduced parts");
+  if (!mesh) {
+    mesh.emplace();
+    mesh->name = name_of(config_path);
+    mesh->nodes.resize(0, 3);
+  }
   const Recipe recipe = read_recipe(config, *mesh);
   inputs.insert(inputs.end(), recipe.files.begin(), recipe.files.end());
   clock.lap("read");
@@ -63,7 +78,7 @@ AssembledPart assemble(const std::filesystem::path& mesh_path,
                        const std::filesystem::path& config_path, StepClock& clock) {
   const Config config = Config::load(config_path);
   AssembledPart part;
-  part.built = make_model(mesh_path, config, part.provenance.inputs, clock);
+  part.built = make_model(mesh_path, config_path, config, part.provenance.inputs, clock);
   part.provenance.inputs.push_back(config_path);
   part.provenance.schema = fe::kFeSchema;
   part.provenance.config = config.resolved();

@@ -25,6 +25,14 @@ Matrices that another program assembled, instead of all these tables:
   M = "mass.mtx"
   dofs = "dofs.tsv"    # meaning of each row (docs/formats.md); default: x y z of the mesh's nodes
   units = "mm-t-s"     # of K and M, default "m-kg-s"
+Parts that were reduced before stand in an assembly with [[part]], beside a mesh or alone:
+  clatter-assembly -c engine.fe.toml -o engine.fe.h5
+  [[part]]
+  name = "pan"
+  file = "pan.rom.h5"  # its set "flange" is the surface and node set "pan_flange" here
+  [[tie]]              # or [[gasket]], [[spring]], [[coupling]], [[equation]]
+  slave = "pan_flange"
+  master = "block_pan_face"
 clatter-assembly keys prints every key; samples/truck_diesel/block.fe.toml is a complete sample.
 Next: clatter-modal block.fe.h5 (modes), clatter-modal statics block.fe.h5 (load cases),
  clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5)";
@@ -56,7 +64,7 @@ int main(int argc, char** argv) {
                             "supports and contact patches, and builds unit load cases.",
                             kEpilog);
   Arguments a;
-  line.positional("mesh", a.mesh, "mesh of the part (.mesh.h5); none with [matrices] and dofs",
+  line.positional("mesh", a.mesh, "mesh of the part (.mesh.h5); none with [matrices] and dofs, or with [[part]] alone",
                   false);
   line.option("-c,--config", a.config, "materials, couplings, sets, loads (.fe.toml)", true);
   line.output("-o,--output", a.output, "the model to write (.fe.h5)", true);

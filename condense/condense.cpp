@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "condense/basis/cutoff_search.hpp"
 #include "condense/basis/inertia_force.hpp"
 #include "condense/certify/certificate.hpp"
 #include "condense/rows/recovery_rows.hpp"
+#include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/fe/free_motions.hpp"
 
@@ -27,6 +30,21 @@ Eigen::MatrixXd boundary_rows(const PartitionedModel& part, const Eigen::MatrixX
   const auto n_b = static_cast<Eigen::Index>(part.dofs.boundary.size());
   reduced.topRows(n_b) = motions(part.dofs.boundary, Eigen::all);
   return reduced;
+}
+
+/// A model of reduced parts cannot be better than these.
+void check_parts(const fe::FeModel& model, const ModeRequest& request) {
+  if (model.parts.count == 0 || request.accurate_to_hz <= model.parts.accurate_to_hz) return;
+  throw NumericsError(fmt::format(
+      "{}: accurate_to_hz: found {:g} Hz, but its {} reduced parts are accurate to {:g} Hz: reduce "
+      "them with a higher cut-off, or ask for less",
+      model.name, request.accurate_to_hz, model.parts.count, model.parts.accurate_to_hz));
+}
+
+void limit_to_parts(const fe::FeModel& model, InteriorModes& interior) {
+  if (model.parts.count == 0) return;
+  interior.cutoff_hz = std::min(interior.cutoff_hz, model.parts.valid_to_hz);
+  interior.accurate_to_hz = std::min(interior.accurate_to_hz, model.parts.accurate_to_hz);
 }
 
 std::map<std::string, Eigen::VectorXd> reduced_loads(const fe::FeModel& model,
@@ -53,12 +71,14 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
                            StepClock& clock) {
   const fe::FeModel& model = part.full;
   report_repeated(part.dofs);
+  check_parts(model, options.modes);
   SkinRecovery recovery(part, options.skin, options.rows);
   StaticPart statics = static_part(part, recovery.unknowns(), clock);
   SearchedBasis found = options.modes.accurate_to_hz > 0.0
                             ? search_cutoff(part, statics, options.modes, clock)
                             : SearchedBasis{craig_bampton(part, statics, options.modes, clock), {}};
   CraigBampton& source = found.basis;
+  limit_to_parts(model, source.interior);
 
   rom::InertiaInvariants inertia;
   if (options.inertia_invariants) {

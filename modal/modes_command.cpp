@@ -42,6 +42,15 @@ std::pair<modes::ModesOptions, std::string> choose_options(const ModesArguments&
   return {options, resolved};
 }
 
+/// Modes above what the reduced parts of a model are for.
+void warn_of_parts(const modes::PartModes& part, const fe::FeParts& parts) {
+  if (parts.count == 0) return;
+  const auto above = (part.modes.frequencies_hz().array() > parts.valid_to_hz).count();
+  if (above > 0)
+    warn(fmt::format("{} of {} modes lie above {:g} Hz, to which the reduced parts are valid", above,
+                     part.modes.values.size(), parts.valid_to_hz));
+}
+
 void compute_modes(const ModesArguments& a, const ModeFinder& finder, const CommonOptions& common) {
   finder.begin(common);
   check_result_exports(a.exports);
@@ -61,6 +70,7 @@ void compute_modes(const ModesArguments& a, const ModeFinder& finder, const Comm
   clock.lap("modes");
   for (const std::string& line : modes::describe(part)) print_result(line);
   warn_of_first_frequency(part);
+  warn_of_parts(part, full.parts);
 
   std::vector<std::filesystem::path> read{a.model};
   if (!a.config.empty()) read.push_back(a.config);

@@ -54,6 +54,12 @@ clatter_recover := $(call clatter_escaped,$(clatter_recover_program))
 %.fe.h5: %.mesh.h5 %.fe.toml $(clatter_assembly)
 	$(call clatter_run,assembly) $(clatter_in) -c $(call clatter_quoted,$*.fe.toml) $(clatter_out)
 
+# Of reduced parts without a mesh. Before the include: CLATTER_ASSEMBLIES := engine; after it: engine.fe.h5: block.rom.h5 pan.rom.h5
+ifneq ($(CLATTER_ASSEMBLIES),)
+$(CLATTER_ASSEMBLIES:%=%.fe.h5): %.fe.h5: %.fe.toml $(clatter_assembly)
+	$(call clatter_run,assembly) -c $(call clatter_quoted,$*.fe.toml) $(clatter_out)
+endif
+
 %.modes.h5: %.fe.h5 %.modes.toml $(clatter_modal)
 	$(call clatter_run,modal) $(clatter_in) -c $(call clatter_quoted,$*.modes.toml) $(clatter_out)
 

@@ -11,8 +11,10 @@
 namespace clatter::assembly {
 namespace {
 
-/// Unit rigid motions of all nodes, points and rotations of nodes.
-Eigen::MatrixXd rigid_of(const RowMatrix& nodes, const DofNumbers& numbers) {
+/// Unit rigid motions of all nodes, points, rotations of nodes and coordinates of reduced parts.
+Eigen::MatrixXd rigid_of(const PartData& part) {
+  const RowMatrix& nodes = part.mesh.nodes;
+  const DofNumbers& numbers = part.numbers;
   Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(numbers.count(), 6);
   for (Eigen::Index a = 0; a < nodes.rows(); ++a)
     rigid.middleRows<3>(3 * a) = rigid_motion(nodes.row(a).transpose());
@@ -25,8 +27,12 @@ Eigen::MatrixXd rigid_of(const RowMatrix& nodes, const DofNumbers& numbers) {
     const Eigen::Index row = numbers.nodal() + 6 * static_cast<Eigen::Index>(p);
     rigid.block<3, 3>(row + 3, 3).setIdentity();
   }
-  for (Eigen::Index row = numbers.first_rotation(); row < numbers.count(); row += 3)
+  for (Eigen::Index row = numbers.first_rotation(); row < numbers.first_own(); row += 3)
     rigid.block<3, 3>(row, 3).setIdentity();
+  for (const PartSpec& spec : part.recipe.parts)
+    for (size_t j = 0; j < spec.coordinates.size(); ++j)
+      if (const int32_t own = spec.coordinates[j].own; own >= 0)
+        rigid.row(numbers.first_own() + own) = spec.model.rigid.row(static_cast<Eigen::Index>(j));
   return rigid;
 }
 
@@ -61,7 +67,7 @@ void append(Motions& all, Motions more) {
 }  // namespace
 
 Constrained constrain(const PartData& part) {
-  Eigen::MatrixXd nodal_rigid = rigid_of(part.mesh.nodes, part.numbers);
+  Eigen::MatrixXd nodal_rigid = rigid_of(part);
   const Relations relations = gather_relations(part);
 
   HeldById held = aligned_supports(relations.supports, part.numbers);
@@ -83,6 +89,8 @@ Constrained constrain(const PartData& part) {
   append(motions, std::move(faces.motions));
   append(motions, std::move(linked));
   append(motions, std::move(turned.motions));
+  for (const PartSpec& spec : part.recipe.parts)
+    for (const auto& [name, grid] : spec.model.grids) faces.grids[spec.named(name)] = grid;
   held.merge(of_nodes.held);
   held.merge(of_points.held);
   return {.elimination = elimination,

@@ -27,7 +27,7 @@ void append_motions(const std::vector<Functional>& functionals, const Eigen::Mat
   }
 }
 
-/// DoFs of sensors, node sets and points: they stay coordinates.
+/// DoFs of sensors, node sets and points, and own ones of reduced parts: they stay coordinates.
 std::vector<int32_t> kept_dofs(const PartData& part, const Relations& relations) {
   std::vector<int32_t> kept;
   for (const std::vector<KeptDof>& set : relations.kept)
@@ -36,6 +36,8 @@ std::vector<int32_t> kept_dofs(const PartData& part, const Relations& relations)
   for (size_t p = 0; p < part.numbers.points().size(); ++p)
     for (const int32_t id : point_dofs(part.numbers, static_cast<int32_t>(p)).ids)
       kept.push_back(id);
+  for (int64_t id = part.numbers.first_own(); id < part.numbers.count(); ++id)
+    kept.push_back(static_cast<int32_t>(id));
   return kept;
 }
 
@@ -60,6 +62,9 @@ Eliminator eliminate_dependences(const PartData& part, const Relations& relation
       const auto own = static_cast<int32_t>(numbers.nodal() + 6 * static_cast<int64_t>(p)) + d;
       if (numbers.of_point(static_cast<int32_t>(p), d) != own) eliminator.drop(own);
     }
+  for (const PartSpec& spec : part.recipe.parts)
+    for (const auto& [node, direction] : spec.without)
+      eliminator.drop(numbers.of(NodeOrPoint::of_node(node), direction));
   eliminator.add_coordinates(6 * static_cast<int>(relations.references.size()));
   eliminator.add_coordinates(static_cast<int>(relations.bolts.size()));
   for (const Dependence& one : relations.dependences) eliminator.depend(one.dof, one.on);

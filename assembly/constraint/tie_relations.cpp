@@ -83,13 +83,7 @@ std::vector<Dependence> tie(const PartData& part, const TieSpec& given, int32_t 
   std::vector<Dependence> dependences;
   int held = 0;
   for (const ProjectedNode& row : found.tied) {
-    const Eigen::Vector3d arm = arm_of(row, mesh.nodes.row(row.node).transpose(), mesh.nodes);
-    PointMotion rows;
-    const int32_t own = part.numbers.rotation_of(row.node);
-    if (arm.norm() > kNoArm * size)
-      rows =
-          own < 0 ? rotation_rows(row, arm, mesh.nodes, spec.where) : own_rotation_rows(own, arm);
-    add_masters(row, rows);
+    PointMotion rows = following(part, row, size, spec.where);
     for (int d = 0; d < 3; ++d) {
       const int32_t dof = 3 * row.node + d;
       if (graph.is_held(dof)) {
@@ -111,6 +105,18 @@ std::vector<Dependence> tie(const PartData& part, const TieSpec& given, int32_t 
 
 }  // namespace
 
+PointMotion following(const PartData& part, const ProjectedNode& row, double size,
+                      const std::string& where) {
+  const RowMatrix& nodes = part.mesh.nodes;
+  const Eigen::Vector3d arm = arm_of(row, nodes.row(row.node).transpose(), nodes);
+  const int32_t own = part.numbers.rotation_of(row.node);
+  PointMotion rows;
+  if (arm.norm() > kNoArm * size)
+    rows = own < 0 ? rotation_rows(row, arm, nodes, where) : own_rotation_rows(own, arm);
+  add_masters(row, rows);
+  return rows;
+}
+
 Projection project_tie(const PartData& part, TieSpec& spec) {
   const mesh::Mesh& mesh = part.mesh;
   const std::vector<TieFace> slave = tie_faces(mesh.nodes, mesh.surface(spec.slave));
@@ -118,9 +124,13 @@ Projection project_tie(const PartData& part, TieSpec& spec) {
   if (!spec.distance) spec.distance = kDefaultGap * mean_size(slave) + half_thickness(part);
   Projection found = project(slave, master, *spec.distance);
   // A sheet has two faces; its surface may be named for the other one.
-  const bool sheet = std::ranges::all_of(mesh::nodes_of(mesh.surface(spec.slave)), [&](int32_t n) {
-    return part.numbers.rotation_of(n) >= 0;
-  });
+  const bool sheet = std::ranges::any_of(part.recipe.parts,
+                                         [&](const PartSpec& one) {
+                                           return std::ranges::count(one.sheets, spec.slave) > 0;
+                                         }) ||
+                     std::ranges::all_of(mesh::nodes_of(mesh.surface(spec.slave)), [&](int32_t n) {
+                       return part.numbers.rotation_of(n) >= 0;
+                     });
   if (found.tied.empty() && sheet)
     found = project(turned_faces(mesh, spec.slave), master, *spec.distance);
   if (found.tied.empty())

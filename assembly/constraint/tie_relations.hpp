@@ -8,6 +8,7 @@
 
 #include "assembly/constraint/constraint_graph.hpp"
 #include "assembly/constraint/part_data.hpp"
+#include "assembly/constraint/tie_rows.hpp"
 #include "assembly/coupling/rigid_coupling.hpp"
 #include "assembly/tie/mortar.hpp"
 #include "core/rom/reduced_model.hpp"
@@ -23,6 +24,11 @@ struct TieRelations {
 /// Projects the slave surface of a tie; `spec` gets its default distance. InputError when nothing
 /// is tied.
 Projection project_tie(const PartData& part, TieSpec& spec);
+
+/// The displacement of a slave node that follows its masters. @param size of the slave's faces, in
+/// mean [m]: an arm far below is rounding.
+PointMotion following(const PartData& part, const ProjectedNode& row, double size,
+                      const std::string& where);
 
 /// Projects each slave surface and adds its dependences to the graph. Displacements that a support
 /// holds are not tied. InputError when nothing is tied and for conflicts with relations in `graph`.

@@ -37,8 +37,10 @@ std::string DofNumbers::name(int32_t id, const std::vector<int32_t>& node_ids) c
     return fmt::format("node {} {}", at < node_ids.size() ? node_ids[at] : node + 1, kDofNames[d]);
   };
   if (id < nodal()) return of_node(id / 3, id % 3);
-  if (const int64_t rotation = id - first_rotation(); rotation >= 0 && id < count())
+  if (const int64_t rotation = id - first_rotation(); rotation >= 0 && id < first_own())
     return of_node(turning_[static_cast<size_t>(rotation / 3)], 3 + rotation % 3);
+  if (id >= first_own() && id < count())
+    return fmt::format("coordinate {} of the reduced parts", id - first_own());
   if (id >= count()) return fmt::format("generalised coordinate {}", id - count());
   const auto at = static_cast<size_t>(id - nodal());
   return fmt::format("point {} {}", points_[at / 6].name, kDofNames[at % 6]);

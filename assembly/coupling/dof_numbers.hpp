@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Numbers (ids) of the DoFs before anything is eliminated: displacements of nodes first, then
-// reference points, then rotations of the nodes of shells.
+// reference points, then rotations of nodes, then the own coordinates of reduced parts.
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
@@ -33,21 +33,22 @@ struct NodeOrPoint {
 };
 
 /// Ids: node a has 3 a + d; point p has 3 n_nodes + 6 p + d, except for what a point on a node
-/// shares with it; rotation d of the k-th turning node has 3 n_nodes + 6 n_points + 3 k + d.
-/// Generalised coordinates follow.
+/// shares with it; rotation d of the k-th turning node has 3 n_nodes + 6 n_points + 3 k + d; the
+/// own coordinates of reduced parts are the last. Generalised coordinates follow.
 class DofNumbers {
  public:
-  /// @param turning nodes with rotations, ascending.
+  /// @param turning nodes with rotations, ascending. @param own number of those of parts.
   DofNumbers(const RowMatrix& nodes, const std::vector<ReferencePoint>& points,
-             std::vector<int32_t> turning = {})
-      : nodes_(nodes), points_(points), turning_(std::move(turning)) {}
+             std::vector<int32_t> turning = {}, int64_t own = 0)
+      : nodes_(nodes), points_(points), turning_(std::move(turning)), own_(own) {}
 
   int64_t nodal() const { return 3 * nodes_.rows(); }
   int64_t first_rotation() const { return nodal() + 6 * static_cast<int64_t>(points_.size()); }
-  int64_t count() const { return first_rotation() + 3 * static_cast<int64_t>(turning_.size()); }
+  int64_t first_own() const { return first_rotation() + 3 * static_cast<int64_t>(turning_.size()); }
+  int64_t count() const { return first_own() + own_; }
   /// The ids of nodes: first and one past the last of displacements, and of rotations.
   std::vector<std::pair<int64_t, int64_t>> of_nodes() const {
-    return {{0, nodal()}, {first_rotation(), count()}};
+    return {{0, nodal()}, {first_rotation(), first_own()}};
   }
   const std::vector<int32_t>& turning() const { return turning_; }
   /// The first of the three rotations of a node, -1 for a node of solids.
@@ -66,6 +67,7 @@ class DofNumbers {
   const RowMatrix& nodes_;
   const std::vector<ReferencePoint>& points_;
   std::vector<int32_t> turning_;
+  int64_t own_;
 };
 
 }  // namespace clatter::assembly

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "assembly/constraint/constrain.hpp"
+#include "assembly/constraint/gasket.hpp"
 #include "assembly/heat/solve_heat.hpp"
 #include "assembly/load/load_vectors.hpp"
 #include "assembly/load/mass_properties.hpp"
@@ -15,6 +16,7 @@
 #include "assembly/load/spring.hpp"
 #include "assembly/model/certify.hpp"
 #include "assembly/model/check.hpp"
+#include "assembly/model/part_terms.hpp"
 #include "core/base/named.hpp"
 #include "core/fe/assemble.hpp"
 #include "core/fe/assemble_shells.hpp"
@@ -36,6 +38,15 @@ std::vector<ReferencePoint> reference_points(const Recipe& recipe) {
   return points;
 }
 
+/// Coordinates of reduced parts that belong to no node.
+int64_t own_coordinates(const Recipe& recipe) {
+  int64_t count = 0;
+  for (const PartSpec& spec : recipe.parts)
+    count += std::ranges::count_if(spec.coordinates,
+                                   [](const PartCoordinate& one) { return one.own >= 0; });
+  return count;
+}
+
 /// Some rows of a transformation.
 SparseMatrix rows_of(const SparseMatrix& T, Eigen::Index first, Eigen::Index count) {
   const SparseMatrix t = T.transpose();
@@ -48,7 +59,7 @@ SparseMatrix nodal_rows(const SparseMatrix& T, Eigen::Index nodal) { return rows
 /// Those of the rotations of nodes.
 fe::FeRotations rotations_of(const DofNumbers& numbers, const Elimination& elimination) {
   const auto first = static_cast<Eigen::Index>(numbers.first_rotation());
-  const auto count = static_cast<Eigen::Index>(numbers.count()) - first;
+  const auto count = static_cast<Eigen::Index>(numbers.first_own()) - first;
   return {numbers.turning(), rows_of(elimination.T, first, count),
           rows_of(elimination.T_s, first, count)};
 }
@@ -59,10 +70,10 @@ fe::ShellIds shell_ids(const DofNumbers& numbers, Eigen::Index n_nodes) {
   return ids;
 }
 
-/// `to` with more rows and columns, of all ids, and the shells.
-void add(SparseMatrix& to, const SparseMatrix& shells) {
-  to.conservativeResize(shells.rows(), shells.cols());
-  to += shells;
+/// `to` with more rows and columns, of all ids, and the shells, parts or gaskets.
+void add(SparseMatrix& to, const SparseMatrix& more) {
+  to.conservativeResize(more.rows(), more.cols());
+  to += more;
 }
 
 /// M a of the shells of each centrifugal load.
@@ -119,6 +130,11 @@ Eigen::MatrixXd momentum_of(const SparseMatrix& M, const PartData& part) {
   Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(M.rows(), 3);
   unit.topRows(part.numbers.nodal()) =
       Eigen::Matrix3d::Identity().replicate(part.mesh.nodes.rows(), 1);
+  for (const PartSpec& spec : part.recipe.parts)
+    for (size_t j = 0; j < spec.coordinates.size(); ++j)
+      if (const int32_t own = spec.coordinates[j].own; own >= 0)
+        unit.row(part.numbers.first_own() + own) =
+            spec.model.rigid.row(static_cast<Eigen::Index>(j)).head<3>();
   return multiply_symmetric(M, unit);
 }
 
@@ -206,10 +222,11 @@ void add_point_masses(CoordinateBlocks& M, const PartData& part, const Constrain
   M.qq.makeCompressed();
 }
 
-/// Of the cells, point masses and mass matrices.
+/// Of the cells, reduced parts, point masses and mass matrices.
 rom::MassProperties mass_of(const PartData& part, const Constrained& constrained) {
   MassMoments moments = integrate_mass(part.mesh, part.recipe.materials);
   add_shells(moments, part.mesh, part.recipe.materials, part.recipe.sections);
+  add_parts(moments, part);
   for (const PointMassSpec& spec : part.recipe.point_masses) {
     const Eigen::Index point = point_of(part.numbers, spec);
     if (point < 0) {
@@ -232,7 +249,8 @@ rom::MassProperties mass_of(const PartData& part, const Constrained& constrained
 
 BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepClock& clock) {
   const std::vector<ReferencePoint> references = reference_points(recipe);
-  const DofNumbers numbers(mesh.nodes, references, mesh::turning_nodes(mesh));
+  const DofNumbers numbers(mesh.nodes, references, mesh::turning_nodes(mesh),
+                           own_coordinates(recipe));
   SurfaceCache surfaces(mesh);
   const PartData part{mesh, recipe, numbers, surfaces};
 
@@ -252,6 +270,12 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
     add(nodal.K, shells.K);
     add(nodal.M, shells.M);
   }
+  if (!recipe.parts.empty()) {
+    const fe::NodalMatrices parts = part_matrices(part);
+    add(nodal.K, parts.K);
+    add(nodal.M, parts.M);
+  }
+  if (!recipe.gaskets.empty()) add(nodal.K, gasket_stiffness(part));
   clock.lap("assemble");
   LoadInputs inputs{.momentum = momentum_of(nodal.M, part),
                     .of_fields = momenta_of_fields(nodal.M, part),
@@ -269,6 +293,7 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
   check_references(mesh.name, constrained.sets, M.qq);
   check_stiffness(mesh, constrained.sets, K.qq);
   LoadVectors loads = load_vectors(part, constrained, inputs);
+  add_loads_of_parts(loads, part, elimination);
   clock.lap("masses and loads");
 
   BuiltModel built{
@@ -298,6 +323,7 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
                 .deck = mesh.deck,
                 .load_units = std::move(loads.units)},
       .certificate = {}};
+  add_skins(built.model, part, elimination);
   built.certificate = certify(built.model, constrained, recipe);
   clock.lap("certificate");
   return built;

@@ -69,7 +69,10 @@ FeCertificate certify(const fe::FeModel& model, const Constrained& constrained,
   const Eigen::MatrixXd motions = free_motions(constrained.grounded);
   numbers.rigid_motions_held_by_equations = static_cast<double>(6 - motions.cols());
   if (motions.cols() == 0 || model.nodes.rows() == 0) return numbers;
-  const Eigen::MatrixXd nodal = constrained.nodal_rigid.topRows(model.T.rows()) * motions;
+  Eigen::MatrixXd nodal(model.T.rows(), 6);
+  for (Eigen::Index a = 0; a < model.nodes.rows(); ++a)
+    nodal.middleRows<3>(3 * a) = rigid_motion(model.nodes.row(a).transpose());
+  nodal *= motions;
   Eigen::MatrixXd recovered = model.T * (model.rigid * motions);
   if (model.supports.size() > 0) recovered += model.supports.T * (model.supports.rigid * motions);
   const double recovery = (recovered - nodal).cwiseAbs().maxCoeff() / nodal.cwiseAbs().maxCoeff();

@@ -18,6 +18,7 @@
 #include "core/fe/material.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/recipe/recipe.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::assembly {
 
@@ -64,6 +65,11 @@ struct CouplingSpec {
 struct TieSpec : recipe::Tie {
   bool bolt = false;  // one relative displacement along `direction` stays free
   std::string where;
+};
+
+/// [[gasket]].
+struct GasketSpec : TieSpec {
+  double normal = 0.0, tangential = 0.0;  // stiffnesses per area [N/m3]
 };
 
 /// [[equation]]: sum coefficient * u = 0; the first term depends on the others.
@@ -166,7 +172,25 @@ struct LoadSpec : recipe::Load {
   bool is_uniform_acceleration() const { return kind == Kind::kAcceleration && field.empty(); }
 };
 
+/// A coordinate of a reduced part: of a node of the mesh, or one of its own.
+struct PartCoordinate {
+  int32_t node = -1;                               // of the mesh, or -1
+  bool is_rotation = false;                        // of that node
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();  // the direction there, unit vector
+  int32_t own = -1;                                // number among the own ones of all parts, or -1
+};
+
+/// [[part]] at its place.
+struct PartSpec : recipe::Part {
+  std::string where;
+  rom::ReducedModel model;                  // in the axes of the assembly
+  std::vector<PartCoordinate> coordinates;  // as many as the model has
+  std::vector<std::string> sheets;          // surfaces that are shells, which have two sides
+  std::map<int32_t, int> without;           // nodes that do not turn about one axis, 3 to 5
+};
+
 struct Recipe {
+  std::vector<PartSpec> parts;
   std::vector<fe::Material> materials;     // one per region of the mesh
   std::vector<fe::ShellSection> sections;  // likewise; of those with shells
   fe::MassForm mass = fe::MassForm::kConsistent;
@@ -179,6 +203,7 @@ struct Recipe {
   std::vector<MatrixSpec> matrices;
   std::vector<StraightEdgesSpec> straight_edges;
   std::vector<TieSpec> ties;  // bolts too
+  std::vector<GasketSpec> gaskets;
   std::vector<ContactSpec> contacts;
   std::vector<MeanSpec> means;
   std::vector<NodeSpec> nodes;
@@ -193,7 +218,8 @@ struct Recipe {
 /// with "file:line: key: found ..., expected ..." for unknown regions, surfaces, sets, duplicate
 /// names, values out of range.
 Recipe read_recipe(recipe::File file, const mesh::Mesh& mesh);
-/// Reads the file first; InputError also for unknown keys.
-Recipe read_recipe(const Config& config, const mesh::Mesh& mesh);
+/// Reads the file first; InputError also for unknown keys. The nodes of its reduced parts
+/// (attach_parts()) are added to the mesh.
+Recipe read_recipe(const Config& config, mesh::Mesh& mesh);
 
 }  // namespace clatter::assembly

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "assembly/recipe/parts.hpp"
 #include "core/keys/keys.hpp"
 
 namespace clatter::assembly {
@@ -48,6 +49,20 @@ std::vector<fe::Material> Resolver::materials(const recipe::File& file) const {
   return materials;
 }
 
+/// What needs the cells of a part, which a reduced one no longer has.
+void Resolver::check_loads_of_parts(const recipe::File& file) const {
+  for (const recipe::Heat& heat : file.heats)
+    heat.source.fail("name", "found a temperature field beside a reduced part, expected none: "
+                             "compute it on the part's own mesh");
+  for (const recipe::Load& load : file.loads)
+    if (load.kind == recipe::Load::Kind::kCentrifugal ||
+        load.kind == recipe::Load::Kind::kTemperature ||
+        (load.kind == recipe::Load::Kind::kAcceleration && !load.field.empty()))
+      load.source.fail("kind",
+                       "found a load on all cells beside a reduced part, which has none, expected "
+                       "it among the loads of the part's own model");
+}
+
 /// Mid-side nodes without a cell of their own need straight edges.
 void Resolver::check_hanging(const recipe::File& file) const {
   const bool named = std::ranges::any_of(file.straight_edges, [](const auto& edges) {
@@ -70,17 +85,17 @@ std::vector<T> joined(std::vector<T> first, const std::vector<T>& second) {
 
 }  // namespace
 
-Recipe Resolver::read(const Config& config) {
-  recipe::file_keys().table().check_known(config);
-  // A file without any material is refused with the names of the regions.
-  recipe::File empty;
-  empty.source = Source(config);
-  if (!config.has("material") && !config.has("matrices")) materials(empty);
-  return resolve(recipe::file_keys().read(config));
+/// Sets and loads of reduced parts have names as those of tables.
+void Resolver::name_parts(const std::vector<PartSpec>& parts) {
+  for (const PartSpec& part : parts) {
+    for (const auto& [name, set] : part.model.sets) names_.add_set(part.source, part.named(name));
+    for (const auto& [name, load] : part.model.loads) names_.loads.insert(part.named(name));
+  }
 }
 
-Recipe Resolver::resolve(const recipe::File& file) {
+Recipe Resolver::resolve(const recipe::File& file, std::vector<PartSpec> parts) {
   metre_ = file.metre;
+  name_parts(parts);
   for (const auto& [name, table] : file.systems) names_.systems[name] = table.axes;
   name_materials(file);
   materials_ = materials(file);
@@ -90,6 +105,10 @@ Recipe Resolver::resolve(const recipe::File& file) {
   out.sections = sections_ = sections(file);
   out.mass = file.mass.form;
   out.damping = file.damping;
+  if (!parts.empty() && file.damping.source.where().empty()) {
+    out.damping.alpha = parts.front().model.alpha;
+    out.damping.beta = parts.front().model.beta;
+  }
   out.points = each(file.points, &Resolver::point);
   out.supports = each(file.supports, &Resolver::support);
   out.couplings = each(file.couplings, &Resolver::coupling);
@@ -100,6 +119,7 @@ Recipe Resolver::resolve(const recipe::File& file) {
   out.straight_edges = each(file.straight_edges, &Resolver::straight_edges);
   out.ties = each(file.ties, &Resolver::tie);
   out.ties = joined(std::move(out.ties), each(file.bolts, &Resolver::bolt));
+  out.gaskets = each(file.gaskets, &Resolver::gasket);
   out.contacts = each(file.contacts, &Resolver::contact);
   out.means = each(file.means, &Resolver::mean);
   out.nodes = each(file.sensors, &Resolver::sensor);
@@ -109,18 +129,28 @@ Recipe Resolver::resolve(const recipe::File& file) {
   out.loads = each(file.loads, &Resolver::load);
   for (const recipe::Case& one : file.cases) out.cases[one.name] = factors(one);
   check_hanging(file);
+  if (!parts.empty()) check_loads_of_parts(file);
   out.files = std::move(files_);
+  for (const PartSpec& part : parts) out.files.push_back(part.file);
+  out.parts = std::move(parts);
   return out;
 }
 
 Recipe read_recipe(recipe::File file, const mesh::Mesh& mesh) {
   recipe::file_keys().check_ranges(file);
   for (auto& [name, system] : file.systems) fe::finish(system);
-  return Resolver(mesh).resolve(file);
+  return Resolver(mesh).resolve(file, {});
 }
 
-Recipe read_recipe(const Config& config, const mesh::Mesh& mesh) {
-  return Resolver(mesh).read(config);
+Recipe read_recipe(const Config& config, mesh::Mesh& mesh) {
+  recipe::file_keys().table().check_known(config);
+  // A file without any material is refused with the names of the regions.
+  recipe::File empty;
+  empty.source = keys::Source(config);
+  if (!config.has("material") && !config.has("matrices")) Resolver(mesh).materials(empty);
+  const recipe::File file = recipe::file_keys().read(config);
+  std::vector<PartSpec> parts = attach_parts(file, mesh);
+  return Resolver(mesh).resolve(file, std::move(parts));
 }
 
 }  // namespace clatter::assembly

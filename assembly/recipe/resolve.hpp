@@ -18,8 +18,10 @@ namespace clatter::assembly {
 class Resolver {
  public:
   explicit Resolver(const mesh::Mesh& mesh) : names_{mesh} {}
-  Recipe read(const Config& config);
-  Recipe resolve(const recipe::File& file);
+  /// @param parts of the file, attached to the mesh.
+  Recipe resolve(const recipe::File& file, std::vector<PartSpec> parts);
+  /// One for each region; InputError with the regions that have none.
+  std::vector<fe::Material> materials(const recipe::File& file) const;
 
  private:
   using Source = keys::Source;
@@ -33,14 +35,15 @@ class Resolver {
     return specs;
   }
 
+  void name_parts(const std::vector<PartSpec>& parts);
   void name_materials(const recipe::File& file);
   const fe::Material& named_material(const Source& table, std::string_view key,
                                      const std::string& name) const;
-  std::vector<fe::Material> materials(const recipe::File& file) const;
   std::vector<fe::ShellSection> sections(const recipe::File& file) const;
   fe::ShellSection section(const recipe::Shell& shell) const;
   void check_sheet(const recipe::File& file, const mesh::ShellBlock& block,
                    const fe::ShellSection& section) const;
+  void check_loads_of_parts(const recipe::File& file) const;
   void check_hanging(const recipe::File& file) const;
   PointSpec point(const recipe::Point& point, size_t number);
   SupportSpec support(const recipe::Support& support, size_t number);
@@ -53,6 +56,7 @@ class Resolver {
   StraightEdgesSpec straight_edges(const recipe::StraightEdges& edges, size_t number);
   TieSpec tie(const recipe::Tie& tie, size_t number);
   TieSpec bolt(const recipe::Tie& tie, size_t number);
+  GasketSpec gasket(const recipe::Gasket& gasket, size_t number);
   ContactSpec contact(const recipe::Contact& contact, size_t number);
   MeanSpec mean(const recipe::Mean& mean, size_t number);
   NodeSpec sensor(const recipe::Sensor& sensor, size_t number);
@@ -69,7 +73,7 @@ class Resolver {
   /// The terms of an equation, spring or matrix, which is `what` in messages.
   std::vector<EquationSpec::Term> terms_of(const Source& table, const std::string& what,
                                            const std::vector<recipe::Term>& given) const;
-  TieSpec tied(const recipe::Tie& tie, const std::string& name, bool bolt);
+  TieSpec tied(const recipe::Tie& tie, const std::string& name, const char* kind);
   /// The columns of a file at the nodes of the mesh, or of the surface `on` (n_nodes rows, others
   /// 0); says how far these nodes are from the points, and how far the points are from linear fits.
   /// A table that is farther from the part than the part is large is refused.

@@ -162,10 +162,10 @@ StraightEdgesSpec Resolver::straight_edges(const recipe::StraightEdges& edges, s
   return {edges, where(edges.source, "straight edges " + edges.node_set)};
 }
 
-TieSpec Resolver::tied(const recipe::Tie& tie, const std::string& name, bool bolt) {
-  TieSpec spec{tie, bolt, where(tie.source, fmt::format("{} {}", bolt ? "bolt" : "tie", name))};
+/// @param kind of the table, for messages.
+TieSpec Resolver::tied(const recipe::Tie& tie, const std::string& name, const char* kind) {
+  TieSpec spec{tie, false, where(tie.source, fmt::format("{} {}", kind, name))};
   spec.name = name;
-  names_.ties.insert(name);
   if (tie.edge.empty())
     names_.check_surface(tie.source, tie.slave, "slave");
   else
@@ -177,12 +177,25 @@ TieSpec Resolver::tied(const recipe::Tie& tie, const std::string& name, bool bol
 }
 
 TieSpec Resolver::tie(const recipe::Tie& tie, size_t number) {
-  return tied(tie, tie.name.empty() ? fmt::format("tie_{}", number) : tie.name, false);
+  const std::string name = tie.name.empty() ? fmt::format("tie_{}", number) : tie.name;
+  names_.ties.insert(name);
+  return tied(tie, name, "tie");
 }
 
 TieSpec Resolver::bolt(const recipe::Tie& bolt, size_t) {
   names_.add_set(bolt.source, bolt.name);
-  return tied(bolt, bolt.name, true);
+  names_.ties.insert(bolt.name);
+  TieSpec spec = tied(bolt, bolt.name, "bolt");
+  spec.bolt = true;
+  return spec;
+}
+
+GasketSpec Resolver::gasket(const recipe::Gasket& gasket, size_t number) {
+  const std::string name =
+      gasket.name.empty() ? fmt::format("gasket_{}", number) : gasket.name;
+  if (gasket.normal == 0.0 && gasket.tangential == 0.0)
+    gasket.source.fail("normal_stiffness", "found 0 for both stiffnesses, expected one above");
+  return {tied(gasket, name, "gasket"), gasket.normal, gasket.tangential};
 }
 
 }  // namespace clatter::assembly

@@ -50,6 +50,24 @@ PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition
   return blocks;
 }
 
+/// Each entry of `some` has one in `all`. Both have sorted columns.
+bool covers(const SparseMatrix& all, const SparseMatrix& some) {
+  for (Eigen::Index j = 0; j < some.cols(); ++j) {
+    SparseMatrix::InnerIterator at(all, j);
+    for (SparseMatrix::InnerIterator entry(some, j); entry; ++entry) {
+      while (at && at.row() < entry.row()) ++at;
+      if (!at || at.row() != entry.row()) return false;
+    }
+  }
+  return true;
+}
+
+/// Zeros where only M has entries: the fronts of K carry the rows of M. So it is with the modes of
+/// reduced parts and with matrices of other programs.
+void cover(SparseMatrix& K, const SparseMatrix& M) {
+  if (!covers(K, M)) K = SparseMatrix(K + 0.0 * M);
+}
+
 }  // namespace
 
 LocalPart::LocalPart(const fe::FeModel& model, const std::vector<std::string>& boundary,
@@ -62,6 +80,8 @@ LocalPart::LocalPart(const fe::FeModel& model, const std::vector<std::string>& b
   check_boundary_holds(model, dofs, free);
   K = partition_matrix(model.K, dofs);
   M = partition_matrix(model.M, dofs);
+  cover(K.ii, M.ii);
+  cover(K.ib, M.ib);
   whole_dofs.resize(model.size());
   std::iota(whole_dofs.begin(), whole_dofs.end(), 0);
   interior_of_whole = dofs.interior;

@@ -32,6 +32,30 @@ double scaled_condition(const Eigen::MatrixXd& M_rr) {
                 : std::numeric_limits<double>::infinity();
 }
 
+/// "joint[3].rz", or "a mode".
+std::string label_of(const rom::ReducedModel& reduced, Eigen::Index coordinate) {
+  for (const auto& [name, set] : reduced.sets)
+    for (size_t k = 0; k < set.dofs.size(); ++k)
+      if (set.dofs[k] == coordinate) return set.labels[k];
+  return "a mode";
+}
+
+/// The coordinate that has the largest part in the motion of least mass.
+[[noreturn]] void refuse_mass(const rom::ReducedModel& reduced) {
+  const Eigen::VectorXd scale =
+      reduced.M_rr.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const dense::Eigenpairs eigen =
+      dense::symmetric_eigen(scale.asDiagonal() * reduced.M_rr * scale.asDiagonal());
+  Eigen::Index least = 0;
+  reduced.M_rr.diagonal().minCoeff(&least);
+  if (reduced.M_rr(least, least) > 0.0 && eigen.ok)
+    eigen.vectors.col(0).cwiseAbs().maxCoeff(&least);
+  throw NumericsError(fmt::format(
+      "reduced model: M_rr is not positive definite, {} moves no mass: of the nodes of a flat sheet "
+      "leave out the rotation about its normal ([[nodes.term]] with directions)",
+      label_of(reduced, least)));
+}
+
 /// Rigid count, first elastic and highest frequency of (K_rr, M_rr).
 void certify_spectrum(rom::ReducedModel& reduced, const Eigen::MatrixXd& motions) {
   constexpr double kRounding = 1e-15;  // of the highest value: rounding of doubles
@@ -41,7 +65,7 @@ void certify_spectrum(rom::ReducedModel& reduced, const Eigen::MatrixXd& motions
   if (!low.ok()) throw NumericsError("reduced model: " + low.message);
   const dense::Eigenpairs all =
       dense::symmetric_eigen(reduced.K_rr, reduced.M_rr, dense::EigenParts::kValues);
-  if (!all.ok) throw NumericsError("reduced model: M_rr is not positive definite");
+  if (!all.ok) refuse_mass(reduced);
   const double highest = all.values.maxCoeff();
   const Eigen::Index zeros = (low.values.array() <= kRounding * highest).count();
   out.rigid_modes = static_cast<double>(motions.cols() + zeros);
@@ -147,7 +171,7 @@ void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const Cra
     out.mass_error = compare_mass(found, full).largest();
     out.mass_error_elements = compare_mass(found, part.full.mass).largest();
   }
-  out.certified = spectrum ? 1.0 : 0.0;
+  out.certified = spectrum && part.full.parts.certified ? 1.0 : 0.0;
   out.dropped_vectors = source.dropped + source.interior.dropped;
   out.K_ii_rcond = source.factor.rcond;
   out.K_ii_probe_residual = source.factor.probe_residual;

@@ -126,6 +126,9 @@ SkinFaces skin_faces(const fe::FeModel& model, const std::vector<std::string>& s
     if (std::vector<int32_t> rows = triangles_on(surface.faces); !rows.empty())
       out.of_surface[name] = std::move(rows);
   out.sheet = triangles_on(model.cells.shells);
+  const std::vector<mesh::FaceBlock> of_parts{{FaceType::kTri6, model.parts.sheet}};
+  for (const int32_t row : triangles_on(of_parts)) out.sheet.push_back(row);
+  std::sort(out.sheet.begin(), out.sheet.end());
   return out;
 }
 

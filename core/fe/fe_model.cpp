@@ -66,6 +66,29 @@ void read_loads(const H5File& file, FeModel& model) {
   }
 }
 
+void write_parts(H5File& file, const FeParts& parts) {
+  if (parts.count == 0) return;
+  file.set("parts", "count", static_cast<int64_t>(parts.count));
+  file.set("parts", "certified", static_cast<int64_t>(parts.certified ? 1 : 0));
+  file.set("parts", "valid_to_hz", parts.valid_to_hz);
+  file.set("parts", "accurate_to_hz", parts.accurate_to_hz);
+  if (parts.sheet.rows() > 0) file.write("parts/sheet", parts.sheet);
+}
+
+FeParts read_parts(const H5File& file, Eigen::Index n_nodes) {
+  FeParts parts;
+  if (!file.has("parts")) return parts;
+  parts.count = static_cast<int>(file.get_int("parts", "count"));
+  parts.certified = file.get_int("parts", "certified") != 0;
+  parts.valid_to_hz = file.get_double("parts", "valid_to_hz");
+  parts.accurate_to_hz = file.get_double("parts", "accurate_to_hz");
+  if (file.has("parts/sheet")) parts.sheet = file.read_index_matrix("parts/sheet");
+  if (parts.sheet.size() > 0 && (parts.sheet.cols() != 6 || parts.sheet.minCoeff() < 0 ||
+                                 parts.sheet.maxCoeff() >= n_nodes))
+    refuse(file, "parts/sheet", "faces of other nodes", "quadratic triangles of the model's");
+  return parts;
+}
+
 }  // namespace
 
 const rom::DofSet& FeModel::set(const std::string& set_name) const {
@@ -107,6 +130,7 @@ void write_fe_model(H5File& file, const FeModel& model) {
   rom::write_mass_properties(file, model.mass);
   write_statics(file, model);
   write_cells(file, model.cells);
+  write_parts(file, model.parts);
   write_deck_origin(file, model.deck);
 }
 
@@ -134,6 +158,7 @@ FeModel read_fe_model(const std::filesystem::path& path, FeMatrices matrices) {
   read_statics(file, model);
   if (model.size() == 0 && model.supports.size() == 0) refuse(file, "K", "no DoF", "at least one");
   model.cells = read_cells(file, model.nodes);
+  model.parts = read_parts(file, model.nodes.rows());
   model.deck = read_deck_origin(file);
   return model;
 }

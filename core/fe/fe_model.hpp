@@ -50,6 +50,15 @@ struct FeRotations {
   SparseMatrix T_s;            // 3 nodes x n_s
 };
 
+/// What is known of the reduced parts in a model.
+struct FeParts {
+  int count = 0;
+  bool certified = true;        // each of them
+  double valid_to_hz = 0.0;     // the least of them
+  double accurate_to_hz = 0.0;  // likewise, of each by itself
+  IndexMatrix sheet;            // faces of their skins that are sheet, f x 6 nodes of the model
+};
+
 /// A steady temperature field.
 struct HeatField {
   Eigen::VectorXd temperature;          // n_nodes [K]
@@ -88,6 +97,7 @@ struct FeModel {
   std::map<std::string, mesh::Surface> surfaces;               // outward
   FeCells cells;                                               // for stresses
   rom::MassProperties mass;                                    // of elements and point masses
+  FeParts parts{};                                             // none of a mesh alone
   DeckOrigin deck{};                                           // the deck of the mesh
   std::map<std::string, std::string> load_units;               // "gas" -> "Pa": unit of the load
 

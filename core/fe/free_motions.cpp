@@ -128,6 +128,7 @@ FreeMotions free_motions(const RigidProducts& products, const MatrixXd& rigid) {
     const MatrixXd R = rigid(own, Eigen::all);
     moving.push_back(moving_combinations(R.transpose() * momentum(own, Eigen::all)));
     motion(own, Eigen::seqN(0, moving.back().cols())) = R * moving.back();
+    out.moving += moving.back().cols();
   }
   const VectorXd size = products.magnitude(motion).rowwise().maxCoeff();
   MatrixXd force = products.stiffness(motion);

@@ -143,6 +143,7 @@ std::vector<int32_t> turning_nodes(const Mesh& mesh) {
   std::vector<bool> turns(static_cast<size_t>(mesh.nodes.rows()), false);
   for (const ShellBlock& block : mesh.shells)
     for (const int32_t node : block.nodes.reshaped()) turns[node] = true;
+  for (const int32_t node : mesh.turning) turns[node] = true;
   std::vector<int32_t> nodes;
   for (size_t node = 0; node < turns.size(); ++node)
     if (turns[node]) nodes.push_back(static_cast<int32_t>(node));

@@ -77,6 +77,7 @@ struct Mesh {
   std::map<std::string, std::vector<int32_t>> node_sets;  // ascending
   std::map<std::string, RowMatrix> fields;  // n x k values at the nodes, k = 1 or 3 (SI)
   DeckOrigin deck;                          // the deck that it was read from
+  std::vector<int32_t> turning{};           // nodes with rotations that no shell has, ascending
 
   int64_t cell_count() const;  // of solids and shells
   /// InputError listing the existing names when there is none of that name.
@@ -87,7 +88,7 @@ struct Mesh {
 /// Nodes that the faces use, ascending.
 std::vector<int32_t> nodes_of(const Surface& surface);
 
-/// Nodes of shells, which have rotations, ascending.
+/// Nodes with rotations, ascending: of shells, and Mesh::turning.
 std::vector<int32_t> turning_nodes(const Mesh& mesh);
 
 /// Checks columns and node numbers (0 ... n_nodes - 1); InputError, prefixed with `where`.

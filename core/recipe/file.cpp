@@ -33,6 +33,7 @@ const Keys<Mass>& mass_keys() {
 const Keys<Damping>& damping_keys() {
   static const Keys<Damping> keys(
       "damping", "damping D = alpha K + beta M", [](auto& key, Damping& damping) {
+        key.source(damping.source);
         key.number("alpha", damping.alpha, Range::not_negative(), "factor alpha of the stiffness")
             .shown_in("s")
             .excludes("ratio");
@@ -73,6 +74,7 @@ const Keys<File>& file_keys() {
         key.tables("shell", file.shells, shell_keys());
         key.table("matrices", file.matrix_files, matrix_files_keys())
             .excludes("material", "the matrices are the part");
+        key.tables("part", file.parts, part_keys());
         key.table("mass", file.mass, mass_keys());
         key.table("damping", file.damping, damping_keys());
         key.tables("point", file.points, point_keys());
@@ -85,6 +87,7 @@ const Keys<File>& file_keys() {
         key.tables("straight_edges", file.straight_edges, straight_edges_keys());
         key.tables("tie", file.ties, tie_keys());
         key.tables("bolt", file.bolts, bolt_keys());
+        key.tables("gasket", file.gaskets, gasket_keys());
         key.tables("contact", file.contacts, contact_keys());
         key.tables("mean", file.means, mean_keys());
         key.tables("sensor", file.sensors, sensor_keys());

@@ -154,7 +154,7 @@ const Keys<Term>& term_keys() {
   return keys;
 }
 
-/// The rows that a tie and a bolt have.
+/// The rows that ties, bolts and gaskets have.
 template <class Rows>
 void surface_rows(Rows& key, Tie& tie, bool needs_slave) {
   keys::Row slave = key.text("slave", tie.slave, "a surface of the mesh, which follows");
@@ -244,6 +244,26 @@ const Keys<Tie>& bolt_keys() {
         key.text("name", bolt.name, "name of its set").required();
         surface_rows(key, bolt, true);
         key.direction("direction", bolt.direction, "direction from slave to master").required();
+      });
+  return keys;
+}
+
+const Keys<Gasket>& gasket_keys() {
+  static const Keys<Gasket> keys(
+      "gasket", "an elastic layer between a slave and a master surface",
+      [](auto& key, Gasket& gasket) {
+        key.source(gasket.source);
+        key.text("name", gasket.name, "name for messages; gasket_1, gasket_2, ... without it");
+        surface_rows(key, gasket, true);
+        key.number("normal_stiffness", gasket.normal, Range::not_negative(),
+                   "pressure over the closing of the gap; of a curve its slope when it is unloaded "
+                   "from the pressure of the assembly")
+            .required()
+            .shown_in("N/m3");
+        key.number("tangential_stiffness", gasket.tangential, Range::not_negative(),
+                   "shear stress over the sliding: shear modulus over thickness")
+            .required()
+            .shown_in("N/m3");
       });
   return keys;
 }

@@ -63,6 +63,19 @@ struct MatrixFiles {
   double alpha = 0.0, beta = 0.0;  // D = alpha K + beta M [s], [1/s]
 };
 
+/// [[part]]: a reduced part (.rom.h5) that stands in this assembly.
+struct Part {
+  enum class Mirror { kNone, kX, kY, kZ };
+  Source source{};
+  std::string name{};
+  std::filesystem::path file{};
+  bool keeps_names = false;         // else its name and _ come before those of its sets
+  std::string system{};             // where its x, y, z lie; empty: the basic frame
+  Mirror mirror = Mirror::kNone;    // direction that is reflected before
+  /// A name of the part in the assembly.
+  std::string named(const std::string& own) const { return keeps_names ? own : name + "_" + own; }
+};
+
 /// [mass].
 struct Mass {
   Source source;
@@ -71,6 +84,7 @@ struct Mass {
 
 /// [damping]: D = alpha K + beta M.
 struct Damping {
+  Source source{};
   double alpha = 0.0;                  // [s]
   double beta = 0.0;                   // [1/s]
   std::optional<double> ratio, at_hz;  // of critical at a frequency, which gave alpha
@@ -198,6 +212,11 @@ struct Tie {
                                    // size, or half the sheet's thickness
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // of a bolt: from slave to master
   std::string edge = {};                                 // instead of slave: a node set
+};
+
+/// [[gasket]]: an elastic layer between the surfaces of a tie.
+struct Gasket : Tie {
+  double normal = 0.0, tangential = 0.0;  // stiffnesses per area [N/m3]
 };
 
 /// [[contact]]: a grid of patches on a cylinder surface.
@@ -344,6 +363,7 @@ struct File {
   std::map<std::string, RegionMaterial> materials;
   std::vector<Shell> shells;
   std::optional<MatrixFiles> matrix_files;  // which are read elsewhere
+  std::vector<Part> parts;
   Mass mass;
   Damping damping;
   std::vector<Point> points;
@@ -355,6 +375,7 @@ struct File {
   std::vector<Matrix> matrices;
   std::vector<StraightEdges> straight_edges;
   std::vector<Tie> ties, bolts;
+  std::vector<Gasket> gaskets;
   std::vector<Contact> contacts;
   std::vector<Mean> means;
   std::vector<Sensor> sensors;

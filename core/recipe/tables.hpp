@@ -13,6 +13,7 @@ namespace clatter::recipe {
 using keys::Keys;
 using keys::Row;
 
+const Keys<Part>& part_keys();
 const Keys<Point>& point_keys();
 const Keys<Support>& support_keys();
 const Keys<Coupling>& coupling_keys();
@@ -24,6 +25,7 @@ const Keys<Matrix>& matrix_keys();
 const Keys<StraightEdges>& straight_edges_keys();
 const Keys<Tie>& tie_keys();
 const Keys<Tie>& bolt_keys();
+const Keys<Gasket>& gasket_keys();
 const Keys<Contact>& contact_keys();
 const Keys<Mean>& mean_keys();
 const Keys<Sensor>& sensor_keys();

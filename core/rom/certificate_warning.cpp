@@ -8,7 +8,7 @@ std::string certificate_warning(const ReducedModel& model) {
   if (found == ReducedCertificate{})
     return "no certificate: its modes and mass properties are unverified";
   if (found.certified != 0.0) return {};
-  return "not certified: condensed with --no-certificate, "
+  return "not certified: condensed with --no-certificate, or from such a part: "
          "missing modes would be undetected";
 }
 

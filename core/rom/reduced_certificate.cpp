@@ -6,7 +6,7 @@ namespace clatter::rom {
 const std::vector<CertificateField<ReducedCertificate>>& ReducedCertificate::fields() {
   using C = ReducedCertificate;
   static const std::vector<CertificateField<C>> list = {
-      {"certified", &C::certified, "", "0: condensed with --no-certificate"},
+      {"certified", &C::certified, "", "0: condensed with --no-certificate, or from such a part"},
       {"rigid_modes", &C::rigid_modes, "", "zero modes, as many as the body has free motions"},
       {"rigid_stiffness_residue", &C::rigid_stiffness_residue, "",
        "|K_rr r| / (|K_rr| |r|) of a rigid motion r",

@@ -90,6 +90,15 @@ DofSet read_dof_set(const H5File& file, const std::string& at, int n_dofs) {
   if (!set.components.empty() && set.components.size() != set.dofs.size())
     throw InputError(fmt::format("{}: {}/components: found {} for {} degrees of freedom",
                                  file.path().string(), at, set.components.size(), set.dofs.size()));
+  set.sheet = file.has_attribute(at, "sheet") && file.get_int(at, "sheet") != 0;
+  const auto nodes = static_cast<int32_t>(nodes_of_set(set).size());
+  for (const std::string& type : file.list(at + "/faces")) {
+    IndexMatrix faces = file.read_index_matrix(at + "/faces/" + type);
+    if (faces.size() > 0 && (faces.minCoeff() < 0 || faces.maxCoeff() >= nodes))
+      throw InputError(fmt::format("{}: {}/faces/{}: found node {} of {}", file.path().string(), at,
+                                   type, faces.maxCoeff(), nodes));
+    set.faces[type] = std::move(faces);
+  }
   for (const int32_t component : set.components)
     if (component < 0 || component > 6)
       throw InputError(fmt::format("{}: {}/components: found {}, expected 0 to 6",
@@ -166,6 +175,14 @@ Skin read_skin(const H5File& file, Eigen::Index size) {
 
 }  // namespace
 
+std::vector<int32_t> nodes_of_set(const DofSet& set) {
+  std::vector<int32_t> first;
+  for (Eigen::Index k = 0; k < set.position.rows(); ++k)
+    if (k == 0 || set.position.row(k) != set.position.row(k - 1))
+      first.push_back(static_cast<int32_t>(k));
+  return first;
+}
+
 const DofSet& ReducedModel::set(const std::string& set_name) const {
   return find_named(sets, name, "set", set_name);
 }
@@ -191,6 +208,8 @@ void write_dof_sets(H5File& file, const std::map<std::string, DofSet>& sets,
     file.set(at, "kind", set.kind);
     if (!set.node_ids.empty()) file.write(at + "/node_ids", set.node_ids);
     if (!set.components.empty()) file.write(at + "/components", set.components);
+    for (const auto& [type, faces] : set.faces) file.write(at + "/faces/" + type, faces);
+    if (set.sheet) file.set(at, "sheet", int64_t{1});
   }
   for (const auto& [name, grid] : grids) write_grid(file, "grids/" + name, grid);
 }

@@ -38,7 +38,14 @@ struct DofSet {
   std::vector<int32_t> node_ids{};    // node numbers in the deck of the mesh, 0: none; or empty
   std::vector<int32_t> components{};  // 1 to 6 along and about axes of the node's own in the deck,
                                       // 0: `direction` is x, y, z or none of a deck; or empty
+  std::map<std::string, IndexMatrix> faces{};  // by type ("tri6"): faces of the FE model between
+                                               // nodes of the set, outward (nodes_of_set())
+  bool sheet = false;                          // these are faces of shells, which have two sides
 };
+
+/// The nodes of a set, to which DofSet::faces refer: the first DoF of each run of DoFs at one
+/// position.
+std::vector<int32_t> nodes_of_set(const DofSet& set);
 
 /// A grid of patches on a cylinder surface (liner bore or piston skirt). Patch (i, j) is DoF
 /// i * axial.size() + j of the set of the same name; its coordinate is the area-weighted mean

@@ -44,8 +44,10 @@ void wire(Archive& archive, Self& s) {
 
 template <class Archive, SelfOf<Mesh> Self>
 void wire(Archive& archive, Self& s) {
-  auto& [name, nodes, node_ids, regions, cells, shells, surfaces, node_sets, fields, deck] = s;
-  archive(name, nodes, node_ids, regions, cells, shells, surfaces, node_sets, fields, deck);
+  auto& [name, nodes, node_ids, regions, cells, shells, surfaces, node_sets, fields, deck,
+         turning] = s;
+  archive(name, nodes, node_ids, regions, cells, shells, surfaces, node_sets, fields, deck,
+          turning);
 }
 
 template <class Archive, SelfOf<WorstCell> Self>

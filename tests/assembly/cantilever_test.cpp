@@ -29,7 +29,7 @@ constexpr double kLength = 0.4, kWidth = 0.03, kHeight = 0.02;
 
 mesh::Mesh beam(std::array<int, 3> n) { return block_mesh(n, brick({kLength, kWidth, kHeight})); }
 
-fe::FeModel clamped(const mesh::Mesh& mesh, const std::string& nu) {
+fe::FeModel clamped(mesh::Mesh mesh, const std::string& nu) {
   set_quiet(true);
   const Config config =
       Config::parse("[material.steel]\nregions = [\"body\"]\nE_gpa = 210.0\nnu = " + nu +

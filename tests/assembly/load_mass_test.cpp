@@ -214,7 +214,7 @@ TEST(PointMass, EntersTheDiagonalOfItsReferenceNodeOnly) {
 
 TEST(PointMass, OnASoftBarGivesTheOscillatorsFrequency) {
   // A mass of 1000 bars on a clamped bar in pure stretch (nu = 0): w^2 = E A / (L (m + bar / 3)).
-  const mesh::Mesh mesh = short_bar();
+  mesh::Mesh mesh = short_bar();
   set_quiet(true);
   const Config config = Config::parse(R"(
 [material.cork]
@@ -248,7 +248,7 @@ TEST(Damping, ARatioAtAFrequencyGivesAlpha) {
 }
 
 TEST(LumpedMass, AFreeModelKeepsItsMassAndSaysHowFarItsInertiaIsOff) {
-  const mesh::Mesh mesh = block_mesh({2, 2, 2}, brick({0.3, 0.2, 0.1}));
+  mesh::Mesh mesh = block_mesh({2, 2, 2}, brick({0.3, 0.2, 0.1}));
   const Config config = Config::parse(
       "[material.iron]\nregions = ['body']\nE = 1e11\nnu = 0.3\nrho = 7200.0\n"
       "[mass]\nlumping = 'hrz'\n",

@@ -14,7 +14,7 @@ constexpr const char* kSteelToml =
     "[material.steel]\nregions = [\"body\"]\nE_gpa = 210.0\nnu = 0.3\nrho = 7800.0\n";
 
 Recipe read(const std::string& toml) {
-  const mesh::Mesh mesh = block_mesh({1, 1, 1}, brick({1, 1, 1}));
+  mesh::Mesh mesh = block_mesh({1, 1, 1}, brick({1, 1, 1}));
   return read_recipe(Config::parse(toml, "part.fe.toml"), mesh);
 }
 

@@ -76,7 +76,7 @@ Eigen::MatrixXd full(const SparseMatrix& lower) {
   return dense.selfadjointView<Eigen::Lower>();
 }
 
-BuiltModel build_all(const mesh::Mesh& mesh, const std::string& toml) {
+BuiltModel build_all(mesh::Mesh mesh, const std::string& toml) {
   set_quiet(true);
   const Config config = Config::parse(toml, "test.fe.toml");
   const Recipe recipe = read_recipe(config, mesh);

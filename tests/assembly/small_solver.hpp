@@ -29,7 +29,7 @@ Eigen::VectorXd lowest_hz(const SparseMatrix& K, const SparseMatrix& M, int coun
 Eigen::MatrixXd full(const SparseMatrix& lower);
 
 /// Model from a recipe in TOML with its materials.
-BuiltModel build_all(const mesh::Mesh& mesh, const std::string& toml);
+BuiltModel build_all(mesh::Mesh mesh, const std::string& toml);
 
 /// Model from a recipe in TOML; preceded by a steel for all regions.
 BuiltModel build(const mesh::Mesh& mesh, const std::string& toml);

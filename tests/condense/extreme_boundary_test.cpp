@@ -6,6 +6,7 @@
 #include "condense/condense.hpp"
 #include "core/dense/symmetric_eigen.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
+#include "core/sparse/eigen/mode_values.hpp"
 #include "tests/condense/solid_model.hpp"
 #include "tests/observed.hpp"
 #include "tests/refusal.hpp"

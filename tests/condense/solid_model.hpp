@@ -28,7 +28,7 @@ inline mesh::Mesh bar_mesh(const Eigen::Vector3d& size, const std::array<int, 3>
 }
 
 /// The model of a mesh with a recipe in TOML.
-inline fe::FeModel model_of(const mesh::Mesh& mesh, const std::string& toml) {
+inline fe::FeModel model_of(mesh::Mesh mesh, const std::string& toml) {
   set_quiet(true);
   const Config config = Config::parse(toml, "bar.fe.toml");
   StepClock clock;

@@ -161,8 +161,24 @@ class Run(stages.PipelineTest):
         self.named(block__mesh__h5="beam.mesh.h5", block__fe__toml="beam.fe.toml")
         stages.run_stage("condense", "export", "beam.rom.h5", "part.mtx", folder=self.folder)
         (self.folder / "part.fe.toml").write_text('[matrices]\nK = "part.K.mtx"\nM = "part.M.mtx"\ndofs = "part.dofs.tsv"\n')
-        self.before = {"clatter-assembly beam.mesh.h5 -c beam.fe.toml -o beam.fe.h5": self.matrices_of_the_mesh}
+        self.before = {"clatter-assembly beam.mesh.h5 -c beam.fe.toml -o beam.fe.h5": self.matrices_of_the_mesh,
+                       "clatter-assembly -c engine.fe.toml -o engine.fe.h5": self.two_parts}
         self.run_blocks("assembly/README.md")
+
+    def two_parts(self):
+        """engine.fe.toml: two free beams, one beyond the other."""
+        material = (self.folder / "beam.fe.toml").read_text().split("[damping]")[0]
+        ends = "".join(f'[[nodes]]\nname = "{end}"\nsurface = "{end}"\n' for end in ("x_min", "x_max"))
+        (self.folder / "half.fe.toml").write_text(material + ends)
+        (self.folder / "half.rom.toml").write_text('boundary = ["x_min", "x_max"]\nfmax_hz = 4000.0\n')
+        stages.run_stage("assembly", "beam.mesh.h5", "-c", "half.fe.toml", "-o", "half.fe.h5", folder=self.folder)
+        stages.run_stage("condense", "half.fe.h5", "-c", "half.rom.toml", "-o", "half.rom.h5", folder=self.folder)
+        parts = "".join(f'[[part]]\nname = "{name}"\nfile = "half.rom.h5"\n{more}' for name, more in
+                        (("left", ""), ("right", 'system = "beyond"\n')))
+        (self.folder / "engine.fe.toml").write_text(
+            '[system.beyond]\norigin = [0.6, 0.0, 0.0]\nz = [0.0, 0.0, 1.0]\nx = [1.0, 0.0, 0.0]\n' + parts +
+            '[[tie]]\nslave = "right_x_min"\nmaster = "left_x_max"\n')
+        (self.folder / "engine.rom.toml").write_text('boundary = ["right_x_max"]\nfmax_hz = 1000.0\n')
 
     def matrices_of_the_mesh(self):
         """beam.fe.toml becomes a [matrices] of the free beam, rows as x y z of the mesh's nodes."""

@@ -12,6 +12,7 @@ import numpy as np  # noqa: E402
 import scipy.linalg  # noqa: E402
 import stages  # noqa: E402
 
+
 SIZE, CELLS, CUT = (0.30, 0.08, 0.06), (10, 4, 3), 4  # [m]; hex20 cells along x y z; cells before the cut
 # Corners, then the mid-side nodes, on the half grid of a cell, in the order of C3D20.
 CORNERS = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
@@ -121,6 +122,42 @@ class JoinedParts(unittest.TestCase):
                 self.assertGreater(error.min(), -1e-8)  # a basis can only stiffen
                 # No spurious mode below the limit: the next one lies above it.
                 self.assertGreater(found[len(uncut)], limit)
+
+    def test_clatter_joins_them_as_the_sum_of_their_matrices(self):
+        for name in ("left", "right"):
+            self.condense(name, 40e3, "frequency_error = 0.0\n")
+        K, M, _ = joined([self.folder / f"{name}.rom.h5" for name in ("left", "right")])
+        expected = np.sqrt(np.maximum(scipy.linalg.eigh(K, M, eigvals_only=True), 0.0)) / (2 * np.pi)
+        parts = "".join(f'[[part]]\nname = "{name}"\nfile = "{name}.rom.h5"\n' for name in ("left", "right"))
+        (self.folder / "bar.fe.toml").write_text(parts + '[[tie]]\nslave = "right_cut"\nmaster = "left_cut"\n')
+        (self.folder / "bar.rom.toml").write_text('boundary = ["left_cut"]\nfmax_hz = 30000.0\nskin = []\n')
+        (self.folder / "Makefile").write_text("CLATTER_ASSEMBLIES := bar\ninclude $(CLATTER_RULES)/clatter.mk\n"
+                                              "bar.fe.h5: left.rom.h5 right.rom.h5\n")
+        stages.make(self.folder, f"CLATTER_RULES={stages.SOURCE / 'tools'}", "bar.rom.h5", "bar.compare.txt")
+        with h5py.File(self.folder / "bar.fe.h5") as whole:
+            group = whole["K"]
+            self.assertEqual(group.attrs["shape"][0], len(K))
+        self.stage("modal", "bar.fe.h5", "--count", 40, "-o", "bar.modes.h5")
+        with h5py.File(self.folder / "bar.modes.h5") as modes:
+            hz = modes["frequency_hz"][()]
+        self.assertEqual(np.count_nonzero(hz == 0.0), 6)
+        np.testing.assert_allclose(hz[6:], expected[6:40], rtol=1e-8)
+        with h5py.File(self.folder / "bar.rom.h5") as reduced:
+            self.assertLess(reduced["certificate"].attrs["mass_error"], 1e-9)
+            self.assertLessEqual(reduced.attrs["valid_to_hz"], 40e3)
+
+    def test_more_than_the_parts_have_is_refused_and_modes_above_are_said(self):
+        self.condense("left", 40e3, "")
+        self.condense("right", 20e3, "")
+        parts = "".join(f'[[part]]\nname = "{name}"\nfile = "{name}.rom.h5"\n' for name in ("left", "right"))
+        (self.folder / "bar.fe.toml").write_text(parts + '[[tie]]\nslave = "right_cut"\nmaster = "left_cut"\n')
+        self.stage("assembly", "-c", "bar.fe.toml", "-o", "bar.fe.h5")
+        (self.folder / "bar.rom.toml").write_text('boundary = ["left_cut"]\naccurate_to_hz = 15000.0\nskin = []\n')
+        refused = stages.run_stage("condense", "bar.fe.h5", "-c", "bar.rom.toml", "-o", "bar.rom.h5", folder=self.folder)
+        self.assertEqual(refused.returncode, 3)
+        self.assertIn("its 2 reduced parts are accurate to 10000 Hz", refused.stderr)
+        done = stages.run_stage("modal", "bar.fe.h5", "--fmax-hz", 25e3, "-o", "bar.modes.h5", folder=self.folder)
+        self.assertRegex(done.stderr, r"of \d+ modes lie above 20000 Hz, to which the reduced parts are valid")
 
 
 if __name__ == "__main__":

@@ -76,7 +76,7 @@ def verdict(found):
     if not found:
         return "NO CERTIFICATE: its modes and its mass were not checked"
     if not found.get("certified", 1.0):
-        return "NOT CERTIFIED: condensed with --no-certificate; modes not counted, spectrum not computed"
+        return "NOT CERTIFIED: condensed with --no-certificate, or from such a part; modes not counted, spectrum not computed"
     proof = "no mode is missing" if found.get("count_proved") else "THE NUMBER OF MODES IS NOT PROVED"
     known = "verified by the full model" if "verified_modes" in found else "errors estimated, not verified (--verify)"
     return f"certified; {proof}; {known}"

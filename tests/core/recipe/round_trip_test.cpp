@@ -98,7 +98,7 @@ void add_materials(Random& r, File& file) {
   wood.material.material.density = r.positive();
   wood.material.system = r.name();
   file.mass.form = r.one_of({fe::MassForm::kConsistent, fe::MassForm::kHrz});
-  file.damping = {r.positive(), r.positive(), {}, {}};
+  file.damping = {{}, r.positive(), r.positive(), {}, {}};
 }
 
 void add_joints(Random& r, File& file) {
@@ -127,6 +127,20 @@ void add_joints(Random& r, File& file) {
   file.matrices.push_back({{}, r.name(), random_terms(r), r.numbers(6), {}});
   file.matrices.push_back({{}, "", random_terms(r), {}, r.numbers(6)});
   file.straight_edges.push_back({{}, r.name()});
+  for (const bool keeps : {true, false}) {
+    Part& part = file.parts.emplace_back();
+    part.name = r.name();
+    part.file = r.name() + ".rom.h5";
+    part.keeps_names = keeps;
+    if (r.flip()) part.system = r.name();
+    part.mirror = r.one_of({Part::Mirror::kNone, Part::Mirror::kY});
+  }
+  Gasket& gasket = file.gaskets.emplace_back();
+  gasket.name = r.name();
+  gasket.slave = r.name();
+  gasket.master = r.name();
+  gasket.normal = r.positive();
+  gasket.tangential = r.positive();
   file.ties.push_back({{}, r.name(), r.name(), r.name(), {}});
   file.ties.push_back({{}, "", r.name(), r.name(), r.positive()});
   file.bolts.push_back({{}, r.name(), r.name(), r.name(), r.positive(), r.direction()});

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Gaskets: elastic layers between two surfaces that need not match.
+//
+// With d = u_slave - P u_master, the motion of the slave side beyond that of a tie (mortar.hpp),
+//   K = int N^T (k_t I + (k_n - k_t) n n^T) N dA  on d,
+// n the normal and k_n, k_t [N/m3] the stiffnesses per area of the layer. Rigid motions have no d,
+// across gaps too.
+#include "assembly/constraint/part_data.hpp"
+#include "core/base/sparse.hpp"
+
+namespace clatter::assembly {
+
+/// K of all gaskets on all ids, lower triangle. Faces of the slave with a node that faces no master
+/// are left out; says the area that is left. InputError when there is none.
+SparseMatrix gasket_stiffness(const PartData& part);
+
+}  // namespace clatter::assembly
