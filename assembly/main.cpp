@@ -64,8 +64,9 @@ int main(int argc, char** argv) {
                             "supports and contact patches, and builds unit load cases.",
                             kEpilog);
   Arguments a;
-  line.positional("mesh", a.mesh, "mesh of the part (.mesh.h5); none with [matrices] and dofs, or with [[part]] alone",
-                  false);
+  line.positional(
+      "mesh", a.mesh,
+      "mesh of the part (.mesh.h5); none with [matrices] and dofs, or with [[part]] alone", false);
   line.option("-c,--config", a.config, "materials, couplings, sets, loads (.fe.toml)", true);
   line.output("-o,--output", a.output, "the model to write (.fe.h5)", true);
   line.blas();

@@ -47,8 +47,8 @@ void warn_of_parts(const modes::PartModes& part, const fe::FeParts& parts) {
   if (parts.count == 0) return;
   const auto above = (part.modes.frequencies_hz().array() > parts.valid_to_hz).count();
   if (above > 0)
-    warn(fmt::format("{} of {} modes lie above {:g} Hz, to which the reduced parts are valid", above,
-                     part.modes.values.size(), parts.valid_to_hz));
+    warn(fmt::format("{} of {} modes lie above {:g} Hz, to which the reduced parts are valid",
+                     above, part.modes.values.size(), parts.valid_to_hz));
 }
 
 void compute_modes(const ModesArguments& a, const ModeFinder& finder, const CommonOptions& common) {

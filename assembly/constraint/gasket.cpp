@@ -50,9 +50,8 @@ SparseMatrix layer_stiffness(const PartData& part, const GasketSpec& spec, const
       if (jumps.place[node] < 0) return;
     const double size = normal.norm(), dA = weight * size;
     const Eigen::Vector3d n = normal / size;
-    const Eigen::Matrix3d k =
-        dA * (spec.tangential * Eigen::Matrix3d::Identity() +
-              (spec.normal - spec.tangential) * n * n.transpose());
+    const Eigen::Matrix3d k = dA * (spec.tangential * Eigen::Matrix3d::Identity() +
+                                    (spec.normal - spec.tangential) * n * n.transpose());
     area += dA;
     for (Eigen::Index a = 0; a < nodes.size(); ++a)
       for (Eigen::Index b = 0; b < nodes.size(); ++b)
@@ -82,8 +81,8 @@ SparseMatrix gasket_stiffness(const PartData& part) {
       throw InputError(fmt::format(
           "{}: found no face of {} whose nodes all face {} within {:.3g} m, expected some",
           spec.where, spec.slave, spec.master, *spec.distance));
-    K += SparseMatrix(SparseMatrix(jumps.D.transpose() * layer * jumps.D)
-                          .triangularView<Eigen::Lower>());
+    K += SparseMatrix(
+        SparseMatrix(jumps.D.transpose() * layer * jumps.D).triangularView<Eigen::Lower>());
     say(fmt::format("{}: {:.4g} m2, {:.1f} % of the slave surface, largest gap {:.3g} m", spec.name,
                     area, 100.0 * area / found.slave_area, found.largest_gap));
   }

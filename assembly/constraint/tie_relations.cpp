@@ -124,13 +124,12 @@ Projection project_tie(const PartData& part, TieSpec& spec) {
   if (!spec.distance) spec.distance = kDefaultGap * mean_size(slave) + half_thickness(part);
   Projection found = project(slave, master, *spec.distance);
   // A sheet has two faces; its surface may be named for the other one.
-  const bool sheet = std::ranges::any_of(part.recipe.parts,
-                                         [&](const PartSpec& one) {
-                                           return std::ranges::count(one.sheets, spec.slave) > 0;
-                                         }) ||
-                     std::ranges::all_of(mesh::nodes_of(mesh.surface(spec.slave)), [&](int32_t n) {
-                       return part.numbers.rotation_of(n) >= 0;
-                     });
+  const bool sheet =
+      std::ranges::any_of(
+          part.recipe.parts,
+          [&](const PartSpec& one) { return std::ranges::count(one.sheets, spec.slave) > 0; }) ||
+      std::ranges::all_of(mesh::nodes_of(mesh.surface(spec.slave)),
+                          [&](int32_t n) { return part.numbers.rotation_of(n) >= 0; });
   if (found.tied.empty() && sheet)
     found = project(turned_faces(mesh, spec.slave), master, *spec.distance);
   if (found.tied.empty())

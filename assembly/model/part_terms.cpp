@@ -12,8 +12,8 @@
 namespace clatter::assembly {
 namespace {
 
-constexpr double kNoPart = 1e-15;      // of a unit vector: rounding of its axes
-constexpr double kUncoupled = 1e-11;   // of the diagonals: rounding of a zero
+constexpr double kNoPart = 1e-15;     // of a unit vector: rounding of its axes
+constexpr double kUncoupled = 1e-11;  // of the diagonals: rounding of a zero
 
 /// q = B u of one part: its coordinates as combinations of some ids.
 struct Coordinates {
@@ -125,9 +125,10 @@ SparseMatrix stacked(const SparseMatrix& top, const std::vector<ColumnsOf>& belo
     count += part.values.size();
   }
   if (count > std::numeric_limits<int32_t>::max())
-    throw InputError(fmt::format("{}: the skins of its parts have {} rows with {} entries, expected "
-                                 "at most 2147483647: reduce the parts with fewer skin surfaces",
-                                 name, rows - top.rows(), count));
+    throw InputError(
+        fmt::format("{}: the skins of its parts have {} rows with {} entries, expected "
+                    "at most 2147483647: reduce the parts with fewer skin surfaces",
+                    name, rows - top.rows(), count));
   SparseMatrix all(rows, top.cols());
   all.reserve(static_cast<Eigen::Index>(count));
   std::vector<Eigen::Index> next(below.size(), 0);
@@ -226,15 +227,14 @@ void add_skins(fe::FeModel& model, const PartData& part, const Elimination& elim
     const double accurate = reduced.certificate.accurate_to_hz.value_or(0.5 * reduced.valid_to_hz);
     const bool first = known.count++ == 0;
     known.certified = known.certified && reduced.certificate.certified.value_or(0.0) != 0.0;
-    known.valid_to_hz = first ? reduced.valid_to_hz : std::min(known.valid_to_hz, reduced.valid_to_hz);
+    known.valid_to_hz =
+        first ? reduced.valid_to_hz : std::min(known.valid_to_hz, reduced.valid_to_hz);
     known.accurate_to_hz = first ? accurate : std::min(known.accurate_to_hz, accurate);
     const rom::Skin& skin = reduced.skin;
     if (skin.nodes.rows() == 0) continue;
     const Coordinates coordinates = coordinates_of(spec, part.numbers);
-    of_q.push_back(
-        skin_rows(skin.T, coordinates.B * rows_of(elimination.T, coordinates.ids)));
-    of_s.push_back(
-        skin_rows(skin.T, coordinates.B * rows_of(elimination.T_s, coordinates.ids)));
+    of_q.push_back(skin_rows(skin.T, coordinates.B * rows_of(elimination.T, coordinates.ids)));
+    of_s.push_back(skin_rows(skin.T, coordinates.B * rows_of(elimination.T_s, coordinates.ids)));
     const auto node = static_cast<int32_t>(model.nodes.rows());
     model.nodes.conservativeResize(node + skin.nodes.rows(), 3);
     model.nodes.bottomRows(skin.nodes.rows()) = skin.nodes;

@@ -43,9 +43,10 @@ rom::ReducedModel read_part(const recipe::Part& part, const recipe::File& file) 
                                          "expected a free part: [[support]] holds the assembly",
                                          part.file.string()));
   if (!model.modal_damping.empty())
-    warn(fmt::format("{}: the modal damping of {} is left out: give that of the assembly in its "
-                     ".rom.toml",
-                     where(part.source, "part"), part.name));
+    warn(
+        fmt::format("{}: the modal damping of {} is left out: give that of the assembly in its "
+                    ".rom.toml",
+                    where(part.source, "part"), part.name));
   return rom::placed(std::move(model), placement_of(part, file));
 }
 
@@ -224,7 +225,8 @@ std::vector<PartSpec> attach_parts(const recipe::File& file, mesh::Mesh& mesh) {
   std::vector<PartSpec> parts;
   int32_t own = 0;
   for (const recipe::Part& part : file.parts) {
-    parts.push_back({part, where(part.source, "part " + part.name), read_part(part, file), {}, {}, {}});
+    parts.push_back(
+        {part, where(part.source, "part " + part.name), read_part(part, file), {}, {}, {}});
     const Eigen::Index before = mesh.nodes.rows();
     own = Attachment(parts.back(), mesh).add(own);
     const rom::ReducedModel& model = parts.back().model;

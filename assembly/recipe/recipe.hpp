@@ -174,10 +174,10 @@ struct LoadSpec : recipe::Load {
 
 /// A coordinate of a reduced part: of a node of the mesh, or one of its own.
 struct PartCoordinate {
-  int32_t node = -1;                               // of the mesh, or -1
-  bool is_rotation = false;                        // of that node
+  int32_t node = -1;                                // of the mesh, or -1
+  bool is_rotation = false;                         // of that node
   Eigen::Vector3d along = Eigen::Vector3d::Zero();  // the direction there, unit vector
-  int32_t own = -1;                                // number among the own ones of all parts, or -1
+  int32_t own = -1;                                 // number among the own ones of all parts, or -1
 };
 
 /// [[part]] at its place.

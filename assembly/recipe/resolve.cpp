@@ -52,8 +52,9 @@ std::vector<fe::Material> Resolver::materials(const recipe::File& file) const {
 /// What needs the cells of a part, which a reduced one no longer has.
 void Resolver::check_loads_of_parts(const recipe::File& file) const {
   for (const recipe::Heat& heat : file.heats)
-    heat.source.fail("name", "found a temperature field beside a reduced part, expected none: "
-                             "compute it on the part's own mesh");
+    heat.source.fail("name",
+                     "found a temperature field beside a reduced part, expected none: "
+                     "compute it on the part's own mesh");
   for (const recipe::Load& load : file.loads)
     if (load.kind == recipe::Load::Kind::kCentrifugal ||
         load.kind == recipe::Load::Kind::kTemperature ||

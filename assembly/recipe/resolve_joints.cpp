@@ -191,8 +191,7 @@ TieSpec Resolver::bolt(const recipe::Tie& bolt, size_t) {
 }
 
 GasketSpec Resolver::gasket(const recipe::Gasket& gasket, size_t number) {
-  const std::string name =
-      gasket.name.empty() ? fmt::format("gasket_{}", number) : gasket.name;
+  const std::string name = gasket.name.empty() ? fmt::format("gasket_{}", number) : gasket.name;
   if (gasket.normal == 0.0 && gasket.tangential == 0.0)
     gasket.source.fail("normal_stiffness", "found 0 for both stiffnesses, expected one above");
   return {tied(gasket, name, "gasket"), gasket.normal, gasket.tangential};

@@ -50,10 +50,11 @@ std::string label_of(const rom::ReducedModel& reduced, Eigen::Index coordinate) 
   reduced.M_rr.diagonal().minCoeff(&least);
   if (reduced.M_rr(least, least) > 0.0 && eigen.ok)
     eigen.vectors.col(0).cwiseAbs().maxCoeff(&least);
-  throw NumericsError(fmt::format(
-      "reduced model: M_rr is not positive definite, {} moves no mass: of the nodes of a flat sheet "
-      "leave out the rotation about its normal ([[nodes.term]] with directions)",
-      label_of(reduced, least)));
+  throw NumericsError(
+      fmt::format("reduced model: M_rr is not positive definite, {} moves no mass: of the nodes of "
+                  "a flat sheet "
+                  "leave out the rotation about its normal ([[nodes.term]] with directions)",
+                  label_of(reduced, least)));
 }
 
 /// Rigid count, first elastic and highest frequency of (K_rr, M_rr).

@@ -83,8 +83,8 @@ FeParts read_parts(const H5File& file, Eigen::Index n_nodes) {
   parts.valid_to_hz = file.get_double("parts", "valid_to_hz");
   parts.accurate_to_hz = file.get_double("parts", "accurate_to_hz");
   if (file.has("parts/sheet")) parts.sheet = file.read_index_matrix("parts/sheet");
-  if (parts.sheet.size() > 0 && (parts.sheet.cols() != 6 || parts.sheet.minCoeff() < 0 ||
-                                 parts.sheet.maxCoeff() >= n_nodes))
+  if (parts.sheet.size() > 0 &&
+      (parts.sheet.cols() != 6 || parts.sheet.minCoeff() < 0 || parts.sheet.maxCoeff() >= n_nodes))
     refuse(file, "parts/sheet", "faces of other nodes", "quadratic triangles of the model's");
   return parts;
 }

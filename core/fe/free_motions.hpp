@@ -17,7 +17,8 @@ struct FreeMotions {
   Eigen::MatrixXd unit;   // 6 x m: as combinations of the unit motions x, y, z, rx, ry, rz
   std::vector<int> body;  // m: the body that moves
   int bodies = 0;         // of the model, free or held
-  Eigen::Index moving = 0;  // motions that move mass, free or held: six a body, fewer of a flat sheet
+  Eigen::Index moving =
+      0;  // motions that move mass, free or held: six a body, fewer of a flat sheet
 
   Eigen::Index count() const { return q.cols(); }
   /// All bodies are completely free: no support, ground spring or constraint equation. A flat sheet

@@ -69,9 +69,9 @@ struct Part {
   Source source{};
   std::string name{};
   std::filesystem::path file{};
-  bool keeps_names = false;         // else its name and _ come before those of its sets
-  std::string system{};             // where its x, y, z lie; empty: the basic frame
-  Mirror mirror = Mirror::kNone;    // direction that is reflected before
+  bool keeps_names = false;       // else its name and _ come before those of its sets
+  std::string system{};           // where its x, y, z lie; empty: the basic frame
+  Mirror mirror = Mirror::kNone;  // direction that is reflected before
   /// A name of the part in the assembly.
   std::string named(const std::string& own) const { return keeps_names ? own : name + "_" + own; }
 };

@@ -174,7 +174,7 @@ TEST(Tie, ASlaveThatARigidCouplingMovesIsRefusedByName) {
 TEST(Bolt, ItsTensionStretchesTheShankAndItsCoordinateIsTheShortening) {
   // A shank in two halves, both ends held; tension F shortens it by F (L1 + L2) / (E A), nu = 0.
   mesh::Mesh mesh = two_parts(slab(CellType::kTet10, {2, 2, 2}, 0.0),
-                                    slab(CellType::kTet10, {3, 1, 2}, 0.0, 1.0));
+                              slab(CellType::kTet10, {3, 1, 2}, 0.0, 1.0));
   set_quiet(true);
   const Config config = Config::parse(R"(
 [material.cork]
