@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "core/base/error.hpp"
 
@@ -160,11 +161,22 @@ mesh::Surface faces_of(const rom::Skin& skin, const std::vector<int32_t>* rows, 
 }
 
 /// The surfaces of a part's skin, whose nodes begin at `first`.
-void add_surfaces(fe::FeModel& model, const PartSpec& spec, int32_t first) {
+/// @param known names of earlier parts' surfaces.
+void add_surfaces(fe::FeModel& model, const PartSpec& spec, int32_t first,
+                  std::set<std::string>& known) {
   const rom::Skin& skin = spec.model.skin;
-  model.surfaces.emplace(spec.named("skin"), faces_of(skin, nullptr, first));
+  const auto add = [&](const std::string& name, const std::vector<int32_t>* rows) {
+    if (!known.insert(name).second)
+      spec.source.fail("keeps_names",
+                       fmt::format("found the surface \"{}\" twice, expected different names: "
+                                   "without keeps_names",
+                                   name));
+    // A set of the same name has its own faces already.
+    model.surfaces.emplace(name, faces_of(skin, rows, first));
+  };
+  add(spec.name + "_skin", nullptr);
   for (const auto& [name, rows] : skin.faces)
-    model.surfaces.emplace(spec.named(name), faces_of(skin, &rows, first));
+    if (name != "skin") add(spec.named(name), &rows);
 }
 
 IndexMatrix joined(const IndexMatrix& a, const IndexMatrix& b) {
@@ -221,6 +233,7 @@ void add_skins(fe::FeModel& model, const PartData& part, const Elimination& elim
   std::vector<ColumnsOf> of_q, of_s;
   const Eigen::Index own = model.nodes.rows();
   IndexMatrix all;
+  std::set<std::string> surfaces;
   for (const PartSpec& spec : parts) {
     const rom::ReducedModel& reduced = spec.model;
     fe::FeParts& known = model.parts;
@@ -238,7 +251,7 @@ void add_skins(fe::FeModel& model, const PartData& part, const Elimination& elim
     const auto node = static_cast<int32_t>(model.nodes.rows());
     model.nodes.conservativeResize(node + skin.nodes.rows(), 3);
     model.nodes.bottomRows(skin.nodes.rows()) = skin.nodes;
-    add_surfaces(model, spec, node);
+    add_surfaces(model, spec, node, surfaces);
     const mesh::Surface whole = faces_of(skin, nullptr, node);
     all = joined(all, whole.faces[0].nodes);
     if (!skin.sheet.empty())

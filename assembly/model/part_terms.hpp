@@ -18,8 +18,9 @@ void add_parts(MassMoments& moments, const PartData& part);
 void add_loads_of_parts(LoadVectors& loads, const PartData& part, const Elimination& elimination);
 
 /// Adds the nodes of their skins with their rows of T, surfaces of these, and FeModel::parts.
-/// Surfaces: `skin` and those of Skin::faces under the part's name; where the mesh has no `skin`,
-/// that of all parts. InputError when T would have more entries than an index can count.
+/// Surfaces: the part's name and _skin, and those of Skin::faces as the part names them; where the
+/// mesh has no `skin`, that of all parts. InputError for two of one name, when T would have more
+/// entries than an index can count.
 void add_skins(fe::FeModel& model, const PartData& part, const Elimination& elimination);
 
 }  // namespace clatter::assembly

@@ -90,7 +90,11 @@ std::vector<T> joined(std::vector<T> first, const std::vector<T>& second) {
 void Resolver::name_parts(const std::vector<PartSpec>& parts) {
   for (const PartSpec& part : parts) {
     for (const auto& [name, set] : part.model.sets) names_.add_set(part.source, part.named(name));
-    for (const auto& [name, load] : part.model.loads) names_.loads.insert(part.named(name));
+    for (const auto& [name, load] : part.model.loads)
+      if (!names_.loads.insert(part.named(name)).second)
+        part.source.fail(
+            "name",
+            fmt::format("found the load \"{}\" twice, expected different names", part.named(name)));
   }
 }
 

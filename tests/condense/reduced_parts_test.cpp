@@ -134,6 +134,30 @@ TEST_F(CompleteParts, AreReducedAgainWithTheirSkinsAndCertified) {
   }
 }
 
+TEST_F(CompleteParts, KeepTheirNamesWhereOneOfThemIsAskedTo) {
+  const fe::FeModel engine =
+      joined(part("block", files_.block, "keeps_names = true\n") + part("plate", files_.plate) +
+             "[[tie]]\nslave = \"plate_joint\"\nmaster = \"joint\"\n")
+          .model;
+  EXPECT_TRUE(engine.sets.contains("joint"));
+  EXPECT_EQ(engine.sets.at("joint").labels[0], "joint[0].x");
+  const auto faces = [&](const std::string& name) { return engine.surfaces.at(name).face_count(); };
+  // The skin is that of both, not of the part that keeps its names.
+  EXPECT_EQ(faces("skin"), faces("block_skin") + faces("plate_skin"));
+  EXPECT_GT(faces("x0"), 0);
+  EXPECT_GT(faces("plate_x0"), 0);
+  fe::FeModel other = b_;
+  other.sets["foot"] = other.sets.at("joint");
+  other.sets.erase("joint");
+  CondenseOptions by_foot = below(20e3);
+  by_foot.boundary = {"foot"};
+  const auto twice = [&] {
+    (void)joined(part("block", files_.block, "keeps_names = true\n") +
+                 part("plate", reduced_file("foot", other, by_foot), "keeps_names = true\n"));
+  };
+  test::expect_parts(test::refusal_of(twice), {"part[1].keeps_names", "surface", "twice"});
+}
+
 TEST_F(CompleteParts, HardB17_MassCouplesWhatStiffnessDoesNot) {
   // Modes of a reduced part are coupled with its boundary by M alone; fronts of K have no place for
   // these entries, and they were written beside it.
