@@ -90,14 +90,18 @@ class Attachment {
     return spec_.coordinates[static_cast<size_t>(set.dofs[k])];
   }
 
-  /// Three different coordinates along orthogonal directions.
-  bool spans(const rom::DofSet& set, const std::vector<size_t>& entries) const {
+  /// There are some, and none is a combination of coordinates.
+  bool are_coordinates(const rom::DofSet& set, const std::vector<size_t>& entries) const {
+    return !entries.empty() &&
+           std::ranges::all_of(entries, [&](size_t k) { return set.dofs[k] < spec_.model.size(); });
+  }
+
+  /// Three along orthogonal directions.
+  static bool spans(const rom::DofSet& set, const std::vector<size_t>& entries) {
     if (entries.size() != 3) return false;
     Eigen::Matrix3d directions;
-    for (int d = 0; d < 3; ++d) {
-      if (set.dofs[entries[d]] >= spec_.model.size()) return false;  // a combination of others
+    for (int d = 0; d < 3; ++d)
       directions.col(d) = set.direction.row(static_cast<Eigen::Index>(entries[d]));
-    }
     return (directions.transpose() * directions).isIdentity(kOrthogonal);
   }
 
@@ -136,13 +140,15 @@ class Attachment {
 
   /// The mesh's node of one node of the set, or -1.
   int32_t attach(const rom::DofSet& set, const NodeOfSet& found) {
-    if (!spans(set, found.displacements)) return -1;
+    if (!are_coordinates(set, found.displacements) || !spans(set, found.displacements)) return -1;
     int32_t node = common_node(set, found.displacements);
     if (node == -1) {
       node = new_node(set, found.displacements[0]);
       assign(set, found.displacements, node);
     }
-    if (node < 0 || found.rotations.empty() || common_node(set, found.rotations) != -1) return node;
+    if (node < 0 || !are_coordinates(set, found.rotations) ||
+        common_node(set, found.rotations) != -1)
+      return node;
     const int missing = missing_axis(set, found.rotations);
     if (missing < 0 && !spans(set, found.rotations)) return node;
     if (missing >= 0) spec_.without[node] = 3 + missing;
@@ -153,13 +159,11 @@ class Attachment {
 
   /// The axis about which a node with rotations about two of x y z does not turn, or -1: of a flat
   /// sheet its normal.
-  int missing_axis(const rom::DofSet& set, const std::vector<size_t>& entries) const {
+  static int missing_axis(const rom::DofSet& set, const std::vector<size_t>& entries) {
     if (entries.size() != 2) return -1;
     Eigen::Vector3d turns = Eigen::Vector3d::Zero();
-    for (const size_t k : entries) {
-      if (set.dofs[k] >= spec_.model.size()) return -1;
+    for (const size_t k : entries)
       turns += set.direction.row(static_cast<Eigen::Index>(k)).cwiseAbs().transpose();
-    }
     int axis = -1;
     for (int d = 0; d < 3; ++d)
       if (turns(d) < kOrthogonal) axis = d;

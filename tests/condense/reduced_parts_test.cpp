@@ -158,6 +158,24 @@ TEST_F(CompleteParts, KeepTheirNamesWhereOneOfThemIsAskedTo) {
   test::expect_parts(test::refusal_of(twice), {"part[1].keeps_names", "surface", "twice"});
 }
 
+/// A set that was recovered, or whose interface was reduced, is a combination of coordinates.
+TEST_F(CompleteParts, LeaveOutSetsThatAreNoCoordinates) {
+  CondenseOptions with_rows = below(20e3);
+  const fe::FeModel b = build_all(plate({3, 2, 3}, CellType::kHex8),
+                                  material("body", kAluminium) + kept("z0") +
+                                      "[[nodes]]\nname = \"top\"\nsurface = \"z1\"\n[[coupling]]\n"
+                                      "name = \"end\"\nsurface = \"x1\"\n")
+                            .model;
+  with_rows.rows = {"top", "end"};
+  const fe::FeModel engine =
+      joined(part("block", files_.block) + part("plate", reduced_file("rows", b, with_rows)) + kTie)
+          .model;
+  EXPECT_TRUE(engine.sets.contains("block_joint"));
+  EXPECT_FALSE(engine.sets.contains("plate_top"));
+  EXPECT_FALSE(engine.sets.contains("plate_end"));
+  EXPECT_TRUE(engine.surfaces.contains("plate_x0"));
+}
+
 TEST_F(CompleteParts, HardB17_MassCouplesWhatStiffnessDoesNot) {
   // Modes of a reduced part are coupled with its boundary by M alone; fronts of K have no place for
   // these entries, and they were written beside it.
