@@ -30,19 +30,19 @@ from page import markdown, write
 ROOT = Path(__file__).resolve().parent.parent
 SAMPLE = ROOT / "samples" / "truck_diesel"
 sys.path.insert(0, str(ROOT / "tools"))
-from clatter_tools import levels, slap  # noqa: E402
+from clatter_tools import levels, slap, slap_rows  # noqa: E402
 from clatter import fields  # noqa: E402
 
 PARTS = {"block": ["block.rom.h5", "block.sound.h5"], "piston": ["piston.rom.h5"], "bore": ["liner_4.shape.h5"], "skirt": ["skirt.shape.h5"]}
 SETTINGS = ["*.run.toml", "*.csv", "field.toml"]
-AT = levels.AT
+AT = slap_rows.AT
 TO_HZ = 3000.0  # up to which the sample's frequencies hold
 
 
 def numbers(field):
     """Sound power [dB(A)], height [m/s2] and instant [ms] of the slap."""
     with h5py.File(field) as file:
-        _, (_, power) = levels.of_field(file, "sound")
+        _, (_, power, _) = levels.of_field(file, "sound", None)
         time, values = slap.band_limited(file, fields.pick_sensor(file, AT, "liner"), AT)
     when, height = slap.peak(time, values)
     return power, height, when * 1e3
