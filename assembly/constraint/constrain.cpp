@@ -90,7 +90,8 @@ Constrained constrain(const PartData& part) {
   append(motions, std::move(linked));
   append(motions, std::move(turned.motions));
   for (const PartSpec& spec : part.recipe.parts)
-    for (const auto& [name, grid] : spec.model.grids) faces.grids[spec.named(name)] = grid;
+    for (const auto& [name, grid] : spec.model.grids)
+      if (spec.has(name)) faces.grids[spec.named(name)] = grid;
   held.merge(of_nodes.held);
   held.merge(of_points.held);
   return {.elimination = elimination,

@@ -54,6 +54,18 @@ std::map<std::string, IndexMatrix> faces_between(const NodeSpec& spec,
   return faces;
 }
 
+/// Nodes are numbered as nodes_of_set() counts them: not where two lie at one position, nor where
+/// the directions of one are in several terms.
+bool numbered_by_position(const rom::DofSet& set, const std::vector<KeptDof>& kept) {
+  const std::vector<int32_t> first = rom::nodes_of_set(set);
+  for (size_t k = 0; k < first.size(); ++k) {
+    const size_t end = k + 1 < first.size() ? static_cast<size_t>(first[k + 1]) : kept.size();
+    for (size_t j = static_cast<size_t>(first[k]); j < end; ++j)
+      if (kept[j].number != static_cast<int32_t>(k)) return false;
+  }
+  return true;
+}
+
 /// The DoFs of a [[nodes]] or [[sensor]], as ids.
 rom::DofSet kept_set(const NodeSpec& spec, const std::vector<KeptDof>& kept,
                      const std::vector<int32_t>& ids, const PartData& part) {
@@ -79,7 +91,7 @@ rom::DofSet kept_set(const NodeSpec& spec, const std::vector<KeptDof>& kept,
     set.node_ids.clear();
   if (std::ranges::all_of(set.components, [](int32_t component) { return component == 0; }))
     set.components.clear();
-  if (!spec.near) set.faces = faces_between(spec, kept, part);
+  if (!spec.near && numbered_by_position(set, kept)) set.faces = faces_between(spec, kept, part);
   set.sheet = !set.faces.empty() && std::ranges::all_of(kept, [&](const KeptDof& dof) {
     return !dof.owner.is_point() && part.numbers.rotation_of(dof.owner.index) >= 0;
   });
@@ -111,7 +123,6 @@ rom::DofSet set_of_part(const rom::DofSet& given, const PartSpec& spec, const Do
   std::set<std::pair<int32_t, bool>> done;  // displacements or rotations of a node
   bool complete = true;
   for (size_t k = 0; k < given.dofs.size(); ++k) {
-    if (given.dofs[k] >= spec.model.size()) continue;  // a combination of coordinates
     const PartCoordinate& one = spec.coordinates[static_cast<size_t>(given.dofs[k])];
     complete = complete && one.node >= 0;
     if (one.node < 0) {
@@ -187,7 +198,7 @@ std::map<std::string, rom::DofSet> sets_of_coordinates(
   }
   for (const PartSpec& spec : part.recipe.parts)
     for (const auto& [name, set] : spec.model.sets)
-      by_id[spec.named(name)] = set_of_part(set, spec, part.numbers);
+      if (spec.has(name)) by_id[spec.named(name)] = set_of_part(set, spec, part.numbers);
   std::map<std::string, rom::DofSet> sets;
   for (auto& [name, set] : by_id) {
     rom::DofSet found = numbered(std::move(set), elimination.reduced_of);

@@ -78,7 +78,13 @@ class Attachment {
 
   /// @param own number of own coordinates of earlier parts; @return with those of this one.
   int32_t add(int32_t own) {
-    for (const auto& [name, set] : spec_.model.sets) add_set(spec_.named(name), set);
+    for (const auto& [name, set] : spec_.model.sets) {
+      if (spec_.has(name))
+        add_set(spec_.named(name), set);
+      else
+        say(fmt::format("part {}: set {} is left out: its displacements are no coordinates",
+                        spec_.name, name));
+    }
     append_nodes();
     for (PartCoordinate& one : spec_.coordinates)
       if (one.node < 0) one.own = own++;
@@ -88,12 +94,6 @@ class Attachment {
  private:
   PartCoordinate& coordinate(const rom::DofSet& set, size_t k) {
     return spec_.coordinates[static_cast<size_t>(set.dofs[k])];
-  }
-
-  /// There are some, and none is a combination of coordinates.
-  bool are_coordinates(const rom::DofSet& set, const std::vector<size_t>& entries) const {
-    return !entries.empty() &&
-           std::ranges::all_of(entries, [&](size_t k) { return set.dofs[k] < spec_.model.size(); });
   }
 
   /// Three along orthogonal directions.
@@ -140,15 +140,13 @@ class Attachment {
 
   /// The mesh's node of one node of the set, or -1.
   int32_t attach(const rom::DofSet& set, const NodeOfSet& found) {
-    if (!are_coordinates(set, found.displacements) || !spans(set, found.displacements)) return -1;
+    if (!spans(set, found.displacements)) return -1;
     int32_t node = common_node(set, found.displacements);
     if (node == -1) {
       node = new_node(set, found.displacements[0]);
       assign(set, found.displacements, node);
     }
-    if (node < 0 || !are_coordinates(set, found.rotations) ||
-        common_node(set, found.rotations) != -1)
-      return node;
+    if (node < 0 || found.rotations.empty() || common_node(set, found.rotations) != -1) return node;
     const int missing = missing_axis(set, found.rotations);
     if (missing < 0 && !spans(set, found.rotations)) return node;
     if (missing >= 0) spec_.without[node] = 3 + missing;

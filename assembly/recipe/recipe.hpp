@@ -187,6 +187,12 @@ struct PartSpec : recipe::Part {
   std::vector<PartCoordinate> coordinates;  // as many as the model has
   std::vector<std::string> sheets;          // surfaces that are shells, which have two sides
   std::map<int32_t, int> without;           // nodes that do not turn about one axis, 3 to 5
+
+  /// All of the set are coordinates: none is a combination of others.
+  bool has(const std::string& set) const {
+    return std::ranges::all_of(model.sets.at(set).dofs,
+                               [&](int32_t dof) { return dof < model.size(); });
+  }
 };
 
 struct Recipe {

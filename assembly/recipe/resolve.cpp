@@ -89,7 +89,8 @@ std::vector<T> joined(std::vector<T> first, const std::vector<T>& second) {
 /// Sets and loads of reduced parts have names as those of tables.
 void Resolver::name_parts(const std::vector<PartSpec>& parts) {
   for (const PartSpec& part : parts) {
-    for (const auto& [name, set] : part.model.sets) names_.add_set(part.source, part.named(name));
+    for (const auto& [name, set] : part.model.sets)
+      if (part.has(name)) names_.add_set(part.source, part.named(name));
     for (const auto& [name, load] : part.model.loads)
       if (!names_.loads.insert(part.named(name)).second)
         part.source.fail(

@@ -158,6 +158,31 @@ TEST_F(CompleteParts, KeepTheirNamesWhereOneOfThemIsAskedTo) {
   test::expect_parts(test::refusal_of(twice), {"part[1].keeps_names", "surface", "twice"});
 }
 
+TEST(ReducedParts, HardB18_FacesAreStoredWhereNodesAreCountedByTheirPositionAlone) {
+  set_quiet(true);
+  const std::string iron = material("body", kIron);
+  const mesh::Mesh mesh = block({2, 1, 1}, CellType::kHex8);
+  const auto faces = [&](const std::string& nodes) {
+    return build_all(mesh, iron + "[[nodes]]\nname = \"joint\"\n" + nodes).model.set("joint").faces;
+  };
+  const auto term = [](const std::string& directions) {
+    return "[[nodes.term]]\nsurface = \"z1\"\ndirections = \"" + directions + "\"\n";
+  };
+  EXPECT_EQ(faces(term("xyz")).at("quad4").rows(), 2);
+  // All displacements are kept, but not node by node.
+  EXPECT_TRUE(faces(term("xy") + term("z")).empty());
+  // Two bodies that touch: nodes of both are at one position, one after the other.
+  mesh::Mesh both = assembly::testing::two_parts(mesh, plate({2, 1, 1}, CellType::kHex8));
+  const auto touching =
+      build_all(both, "[material.iron]\nregions = [\"a\", \"b\"]\n" + kIron +
+                          "[[nodes]]\nname = \"joint\"\n" + "[[nodes.term]]\nsurface = \"a_z1\"\n" +
+                          "[[nodes.term]]\nsurface = \"b_z0\"\n")
+          .model;
+  for (const auto& [type, found] : touching.set("joint").faces)
+    EXPECT_LT(found.maxCoeff(),
+              static_cast<int32_t>(rom::nodes_of_set(touching.set("joint")).size()));
+}
+
 /// A set that was recovered, or whose interface was reduced, is a combination of coordinates.
 TEST_F(CompleteParts, LeaveOutSetsThatAreNoCoordinates) {
   CondenseOptions with_rows = below(20e3);
@@ -173,6 +198,25 @@ TEST_F(CompleteParts, LeaveOutSetsThatAreNoCoordinates) {
   EXPECT_TRUE(engine.sets.contains("block_joint"));
   EXPECT_FALSE(engine.sets.contains("plate_top"));
   EXPECT_FALSE(engine.sets.contains("plate_end"));
+  // A grid stays only with its set: a file with one alone is refused.
+  rom::ReducedModel lined = rom::read_reduced_model(files_.plate);
+  lined.combined = Eigen::MatrixXd::Zero(1, lined.size());
+  rom::DofSet& patch = lined.sets["liner"];
+  patch = {.kind = "contact_grid",
+           .dofs = {lined.size()},
+           .labels = {"liner[0,0]"},
+           .position = Eigen::RowVector3d(0.0, 0.0, 0.06),
+           .direction = Eigen::RowVector3d(0.0, 0.0, 1.0),
+           .is_rotation = {0}};
+  rom::ContactGrid& grid = lined.grids["liner"];
+  grid.angle = grid.axial = Eigen::VectorXd::Zero(1);
+  grid.angle_edges = grid.axial_edges = Eigen::Vector2d(0.0, 1.0);
+  const auto path = test::scratch_path("lined.rom.h5");
+  H5File file = H5File::create(path);
+  write_provenance(file, {rom::kRomSchema, "", {}});
+  rom::write_reduced_model(file, lined);
+  file.commit();
+  EXPECT_TRUE(joined(part("plate", path)).model.grids.empty());
   EXPECT_TRUE(engine.surfaces.contains("plate_x0"));
 }
 
