@@ -32,12 +32,17 @@ double scaled_condition(const Eigen::MatrixXd& M_rr) {
                 : std::numeric_limits<double>::infinity();
 }
 
-/// "joint[3].rz", or "a mode".
-std::string label_of(const rom::ReducedModel& reduced, Eigen::Index coordinate) {
+/// "joint[3].rz", or "a mode", with the way out.
+std::string without_mass(const rom::ReducedModel& reduced, Eigen::Index coordinate) {
   for (const auto& [name, set] : reduced.sets)
     for (size_t k = 0; k < set.dofs.size(); ++k)
-      if (set.dofs[k] == coordinate) return set.labels[k];
-  return "a mode";
+      if (set.dofs[k] == coordinate)
+        return set.labels[k] + " moves no mass" +
+               (set.is_rotation[k] != 0
+                    ? ": of the nodes of a flat sheet leave out the rotation about its normal "
+                      "([[nodes.term]] with directions)"
+                    : "");
+  return "a mode moves no mass";
 }
 
 /// The coordinate that has the largest part in the motion of least mass.
@@ -50,11 +55,8 @@ std::string label_of(const rom::ReducedModel& reduced, Eigen::Index coordinate) 
   reduced.M_rr.diagonal().minCoeff(&least);
   if (reduced.M_rr(least, least) > 0.0 && eigen.ok)
     eigen.vectors.col(0).cwiseAbs().maxCoeff(&least);
-  throw NumericsError(
-      fmt::format("reduced model: M_rr is not positive definite, {} moves no mass: of the nodes of "
-                  "a flat sheet "
-                  "leave out the rotation about its normal ([[nodes.term]] with directions)",
-                  label_of(reduced, least)));
+  throw NumericsError("reduced model: M_rr is not positive definite, " +
+                      without_mass(reduced, least));
 }
 
 /// Rigid count, first elastic and highest frequency of (K_rr, M_rr).

@@ -13,12 +13,11 @@ namespace clatter::fe {
 /// Unconstrained rigid-body motions of each body: parts of a model that neither K nor M connects
 /// move independently, and a free model of two parts has twelve.
 struct FreeMotions {
-  Eigen::MatrixXd q;      // n x m: motions in coordinates q, M-orthonormal
-  Eigen::MatrixXd unit;   // 6 x m: as combinations of the unit motions x, y, z, rx, ry, rz
-  std::vector<int> body;  // m: the body that moves
-  int bodies = 0;         // of the model, free or held
-  Eigen::Index moving =
-      0;  // motions that move mass, free or held: six a body, fewer of a flat sheet
+  Eigen::MatrixXd q;        // n x m: motions in coordinates q, M-orthonormal
+  Eigen::MatrixXd unit;     // 6 x m: as combinations of the unit motions x, y, z, rx, ry, rz
+  std::vector<int> body;    // m: the body that moves
+  int bodies = 0;           // of the model, free or held
+  Eigen::Index moving = 0;  // free or held, with mass: six a body, three of a flat sheet's two
 
   Eigen::Index count() const { return q.cols(); }
   /// All bodies are completely free: no support, ground spring or constraint equation. A flat sheet
