@@ -7,7 +7,9 @@
 
 #include "condense/basis/cutoff_search.hpp"
 #include "condense/basis/inertia_force.hpp"
+#include "condense/basis/truncation.hpp"
 #include "condense/certify/certificate.hpp"
+#include "condense/part_limits.hpp"
 #include "condense/rows/recovery_rows.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
@@ -30,21 +32,6 @@ Eigen::MatrixXd boundary_rows(const PartitionedModel& part, const Eigen::MatrixX
   const auto n_b = static_cast<Eigen::Index>(part.dofs.boundary.size());
   reduced.topRows(n_b) = motions(part.dofs.boundary, Eigen::all);
   return reduced;
-}
-
-/// A model of reduced parts cannot be better than these.
-void check_parts(const fe::FeModel& model, const ModeRequest& request) {
-  if (model.parts.count == 0 || request.accurate_to_hz <= model.parts.accurate_to_hz) return;
-  throw NumericsError(fmt::format(
-      "{}: accurate_to_hz: found {:g} Hz, but its {} reduced parts are accurate to {:g} Hz: reduce "
-      "them with a higher cut-off, or ask for less",
-      model.name, request.accurate_to_hz, model.parts.count, model.parts.accurate_to_hz));
-}
-
-void limit_to_parts(const fe::FeModel& model, InteriorModes& interior) {
-  if (model.parts.count == 0) return;
-  interior.cutoff_hz = std::min(interior.cutoff_hz, model.parts.valid_to_hz);
-  interior.accurate_to_hz = std::min(interior.accurate_to_hz, model.parts.accurate_to_hz);
 }
 
 std::map<std::string, Eigen::VectorXd> reduced_loads(const fe::FeModel& model,
@@ -78,12 +65,17 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
                             ? search_cutoff(part, statics, options.modes, clock)
                             : SearchedBasis{craig_bampton(part, statics, options.modes, clock), {}};
   CraigBampton& source = found.basis;
-  limit_to_parts(model, source.interior);
+  limit_to_parts(model, options.modes, source);
 
   rom::InertiaInvariants inertia;
   if (options.inertia_invariants) {
     inertia = part.inertia(source.basis);
     clock.lap("inertia invariants");
+  }
+  Eigen::MatrixXd lacking;
+  if (options.joined_error) {
+    lacking = truncation(source, *statics.factor_ii, part);
+    clock.lap("error of joined modes");
   }
   Eigen::MatrixXd of_frame;
   if (!part.free.all_free()) of_frame = inertia_force(part, source.basis);
@@ -114,6 +106,7 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
                             .mass = model.mass,
                             .fixed_interface_hz = source.fixed_interface_hz,
                             .valid_to_hz = source.interior.cutoff_hz,
+                            .truncation = std::move(lacking),
                             .skin = std::move(skin),
                             .inertia = std::move(inertia),
                             .combined = std::move(rows.combined),
@@ -122,6 +115,7 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
                             .certificate = {},
                             .deck = model.deck};
   if (found.search.tried > 0) record(found.search, reduced.certificate);
+  record_parts(model, source, reduced.certificate);
   Eigen::MatrixXd motions = boundary_rows(part, part.free.q, reduced.size());
   if (options.interface) {
     ReducedInterface interface =

@@ -69,6 +69,11 @@ const keys::Keys<CondenseOptions>& condense_keys() {
         key.flag("inertia_invariants", options.inertia_invariants,
                  "whether the file has the shape integrals that a body with a rotating or "
                  "accelerating frame needs");
+        key.flag("joined_error", options.joined_error,
+                 "whether the file has what an assembly of reduced parts needs to estimate the "
+                 "error of its frequencies by the modes that this part lacks; costs some three "
+                 "solves for each coordinate of the boundary")
+            .excludes("interface");
         key.tables("modal_damping", options.damping_rows, damping_row_keys());
         key.table("interface", options.interface, interface_keys());
         key.check(finish);

@@ -25,6 +25,7 @@ struct CondenseOptions {
   std::vector<std::string> rows;    // sets, besides the boundary, whose displacement is kept
   rom::EliminationOrder order;      // of K_ii, reused where it fits
   bool inertia_invariants = false;  // of a body that rotates, eq. (9)
+  bool joined_error = false;        // whether ReducedModel::truncation is computed
   std::optional<InterfaceOptions> interface;  // second reduction, of the boundary
   std::vector<DampingRow> damping_rows;       // which give
   rom::DampingTable modal_damping;  // by eigenmodes of the body, in addition to alpha and beta

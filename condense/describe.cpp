@@ -69,6 +69,11 @@ std::vector<std::string> describe(const rom::ReducedModel& reduced) {
           ? fmt::format("frequencies up to {:.0f} Hz within {:.2g} % (estimated)",
                         c.accurate_to_hz.value(), 100.0 * c.frequency_error_estimate.value())
           : std::string("errors not estimated (--no-certificate, frequency_error = 0)");
+  if (c.frequency_error_parts)
+    lines.push_back(
+        fmt::format("the modes that its reduced parts lack raise these frequencies by "
+                    "at most {:.2g} % (estimated)",
+                    100.0 * c.frequency_error_parts.value()));
   lines.push_back(fmt::format("basis holds modes to {:.0f} Hz; {}", c.cutoff_hz.value(), accuracy));
   if (c.cutoffs_tried) lines.push_back(cutoff_line(c));
   if (n_k > 0)

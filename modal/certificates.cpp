@@ -20,6 +20,10 @@ const std::vector<CertificateField<ModesCertificate>>& ModesCertificate::fields(
        "by AMLS: largest estimated relative error of a frequency",
        good_up_to(0.01,
                   "frequencies near the limit are too high: eigen_solver = \"block-lanczos\"")},
+      {"frequency_error_parts", &C::frequency_error_parts, "",
+       "largest estimated relative error of a frequency for the modes that reduced parts lack; "
+       "absent where one of them does not know",
+       good_up_to(0.01, "ask for fewer modes, or reduce the parts with a higher cut-off")},
       {"rigid_modes", &C::rigid_modes, "", "modes of zero stiffness"},
       {"massless_unknowns", &C::massless_unknowns, "", "infinite eigenvalues"},
       {"shift", &C::shift, "rad2/s2", "shift of the eigen-solver"},

@@ -15,6 +15,7 @@ struct ModesCertificate {
   double residual_max = 0.0;
   std::optional<double> frequency_rounding_max{};    // with at least one mode
   std::optional<double> frequency_error_estimate{};  // by AMLS
+  std::optional<double> frequency_error_parts{};     // of a model with reduced parts
   double rigid_modes = 0.0, massless_unknowns = 0.0;
   double shift = 0.0, solves = 0.0, factors = 0.0, retries = 0.0;
   double factor_entries = 0.0, factor_rcond = 0.0;

@@ -7,6 +7,7 @@
 #include "core/base/log.hpp"
 #include "core/base/memory_limit.hpp"
 #include "core/base/write_artefact.hpp"
+#include "core/fe/part_errors.hpp"
 #include "modal/first_frequency.hpp"
 #include "modal/modes_file.hpp"
 #include "modal/result_export.hpp"
@@ -44,11 +45,15 @@ std::pair<modes::ModesOptions, std::string> choose_options(const ModesArguments&
 
 /// Modes above what the reduced parts of a model are for.
 void warn_of_parts(const modes::PartModes& part, const fe::FeParts& parts) {
-  if (parts.count == 0) return;
-  const auto above = (part.modes.frequencies_hz().array() > parts.valid_to_hz).count();
+  const auto above = (part.modes.frequencies_hz().array() > parts.valid_to_hz()).count();
   if (above > 0)
     warn(fmt::format("{} of {} modes lie above {:g} Hz, to which the reduced parts are valid",
-                     above, part.modes.values.size(), parts.valid_to_hz));
+                     above, part.modes.values.size(), parts.valid_to_hz()));
+  if (const std::string unknown = fe::parts_without_truncation(parts); !unknown.empty())
+    warn(
+        fmt::format("the error by the modes that {} lack is not known: joined_error = true in "
+                    "their rom.toml",
+                    unknown));
 }
 
 void compute_modes(const ModesArguments& a, const ModeFinder& finder, const CommonOptions& common) {

@@ -11,13 +11,16 @@
 namespace clatter::modal {
 namespace {
 
-void write_proof(H5File& file, const sparse::ModeSet& modes) {
+void write_proof(H5File& file, const modes::PartModes& part) {
+  const sparse::ModeSet& modes = part.modes;
   ModesCertificate certificate;
   certificate.count_proved = modes.proof.proved ? 1.0 : 0.0;
   certificate.count_below = static_cast<double>(modes.proof.below);
   certificate.count_limit_hz = sparse::hz_of_value(modes.proof.limit);
   certificate.residual_max = modes.size() > 0 ? modes.residuals.maxCoeff() : 0.0;
   if (modes.errors.size() > 0) certificate.frequency_error_estimate = modes.errors.maxCoeff();
+  if (part.part_errors.rows() > 0 && part.part_errors.allFinite())
+    certificate.frequency_error_parts = part.part_errors.rowwise().sum().maxCoeff();
   certificate.rigid_modes = modes.rigid;
   certificate.shift = modes.sigma;
   certificate.solves = static_cast<double>(modes.solves);
@@ -42,6 +45,10 @@ void write_modes(H5File& file, const modes::PartModes& part) {
   file.write("eigenvalue", modes.values);
   file.write("residual", modes.residuals);
   file.write("rounding", modes.rounding);
+  if (part.part_errors.rows() > 0) {
+    file.write("parts/names", part.parts);
+    file.write("parts/errors", part.part_errors);
+  }
   file.write("nodes", part.nodes);
   constexpr Eigen::Index kModes = 16;  // at a time
   std::vector<float> shapes;
@@ -53,7 +60,7 @@ void write_modes(H5File& file, const modes::PartModes& part) {
   }
   file.write_float("shapes", shapes, {modes.size(), part.nodes.rows(), 3});
   mesh::write_surfaces(file, part.surfaces);
-  write_proof(file, modes);
+  write_proof(file, part);
 }
 
 ModeTable read_mode_table(const std::filesystem::path& path) {

@@ -77,6 +77,22 @@ SparseMatrix from(const Triplets& entries, int64_t size) {
   return matrix;
 }
 
+/// What the file of a part says of it.
+fe::FePart known_of(const PartSpec& spec, const DofNumbers& numbers,
+                    const Elimination& elimination) {
+  const rom::ReducedModel& model = spec.model;
+  const rom::ReducedCertificate& certificate = model.certificate;
+  fe::FePart known{.name = spec.name,
+                   .certified = certificate.certified.value_or(0.0) != 0.0,
+                   .valid_to_hz = model.valid_to_hz,
+                   .accurate_to_hz = certificate.accurate_to_hz.value_or(0.5 * model.valid_to_hz)};
+  if (model.truncation.rows() == 0) return known;
+  Triplets entries;
+  append(model.truncation, coordinates_of(spec, numbers), entries);
+  known.truncation = transform_with_supports(from(entries, numbers.count()), elimination).qq;
+  return known;
+}
+
 /// Rows of a transformation, ids x coordinates.
 SparseMatrix rows_of(const SparseMatrix& T, const std::vector<int32_t>& ids) {
   std::vector<int32_t> place(static_cast<size_t>(T.rows()), -1);
@@ -236,13 +252,7 @@ void add_skins(fe::FeModel& model, const PartData& part, const Elimination& elim
   std::set<std::string> surfaces;
   for (const PartSpec& spec : parts) {
     const rom::ReducedModel& reduced = spec.model;
-    fe::FeParts& known = model.parts;
-    const double accurate = reduced.certificate.accurate_to_hz.value_or(0.5 * reduced.valid_to_hz);
-    const bool first = known.count++ == 0;
-    known.certified = known.certified && reduced.certificate.certified.value_or(0.0) != 0.0;
-    known.valid_to_hz =
-        first ? reduced.valid_to_hz : std::min(known.valid_to_hz, reduced.valid_to_hz);
-    known.accurate_to_hz = first ? accurate : std::min(known.accurate_to_hz, accurate);
+    model.parts.list.push_back(known_of(spec, part.numbers, elimination));
     const rom::Skin& skin = reduced.skin;
     if (skin.nodes.rows() == 0) continue;
     const Coordinates coordinates = coordinates_of(spec, part.numbers);
@@ -255,7 +265,8 @@ void add_skins(fe::FeModel& model, const PartData& part, const Elimination& elim
     const mesh::Surface whole = faces_of(skin, nullptr, node);
     all = joined(all, whole.faces[0].nodes);
     if (!skin.sheet.empty())
-      known.sheet = joined(known.sheet, faces_of(skin, &skin.sheet, node).faces[0].nodes);
+      model.parts.sheet =
+          joined(model.parts.sheet, faces_of(skin, &skin.sheet, node).faces[0].nodes);
   }
   if (all.rows() > 0) {
     mesh::Surface skin;

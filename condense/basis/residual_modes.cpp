@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/dense/symmetric_eigen.hpp"
+#include "core/fe/part_errors.hpp"
 #include "core/sparse/dense_product.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
 #include "core/sparse/eigen/eigen_solver.hpp"
@@ -48,6 +49,7 @@ class Correction {
              const MatrixXd& motions)
       : reduction_(reduction),
         factor_(factor),
+        part_(part),
         K_(part.K),
         M_(part.M),
         motions_(motions),
@@ -63,6 +65,8 @@ class Correction {
   void improve(const std::vector<Index>& chosen);
   void append(ResidualReport& report);
   Index modes() const { return ritz_.values.size(); }
+  /// What the last estimate says of the modes and of reduced parts.
+  void report_modes(ResidualReport& report) const;
 
  private:
   /// K_rr and M_rr with the rows and columns of X added.
@@ -72,6 +76,7 @@ class Correction {
 
   Reduction& reduction_;
   const sparse::Factor& factor_;
+  const PartitionedModel& part_;
   const PartitionedMatrix& K_;
   const PartitionedMatrix& M_;
   const MatrixXd& motions_;
@@ -81,8 +86,15 @@ class Correction {
   MatrixXd K_rr_, M_rr_;    // bordered
   VectorXd pseudo_values_;  // of X
   Ritz ritz_;
-  MatrixXd delta_;  // n_i x p
+  MatrixXd delta_;     // n_i x p
+  MatrixXd of_parts_;  // p x parts
 };
+
+void Correction::report_modes(ResidualReport& report) const {
+  report.modes = static_cast<int>(modes());
+  report.modes_hz = ritz_.values.unaryExpr(&sparse::hz_of_value);
+  report.of_parts = of_parts_;
+}
 
 MatrixXd Correction::bordered(const MatrixXd& A_rr, const PartitionedMatrix& A,
                               const sparse::SymmetricOperator& A_ii) const {
@@ -114,6 +126,12 @@ VectorXd Correction::estimate(double limit) {
   const MatrixXd force = interior_rows(*M_ii_, M_.ib, u_i, u_b) * ritz_.values.asDiagonal() -
                          interior_rows(*K_ii_, K_.ib, u_i, u_b);
   delta_ = factor_.solve(force);
+  if (part_.interior().local() != nullptr && !part_.full.parts.list.empty()) {
+    MatrixXd u(part_.full.size(), p);
+    u(part_.dofs.interior, Eigen::all) = u_i;
+    u(part_.dofs.boundary, Eigen::all) = u_b;
+    of_parts_ = fe::part_errors(part_.full.parts, ritz_.values, u);
+  }
   VectorXd error(p);
   for (Index j = 0; j < p; ++j) error[j] = force.col(j).dot(delta_.col(j));
   team_.sum(error.data(), p);
@@ -172,7 +190,7 @@ ResidualReport add_residual_modes(Reduction& reduction, const sparse::Factor& fa
   std::vector<char> corrected;  // by index in the ascending list, which passes hardly reorder
   for (int pass = 0; pass <= kPasses; ++pass) {
     const VectorXd error = correction.estimate(sparse::value_of_hz(limit_hz));
-    report.modes = static_cast<int>(error.size());
+    correction.report_modes(report);
     report.error_estimate = error.size() > 0 ? error.maxCoeff() : 0.0;
     if (pass == 0) report.error_before = report.error_estimate;
     if (target <= 0.0 || report.error_estimate <= target || pass == kPasses) break;

@@ -16,6 +16,8 @@ struct ResidualReport {
   double error_before = 0.0;    // largest estimated relative frequency error without them
   double error_estimate = 0.0;  // and with them
   int modes = 0;                // elastic modes of the body below the limit
+  Eigen::VectorXd modes_hz;     // and their frequencies
+  Eigen::MatrixXd of_parts;     // modes x parts: fe::part_errors; no rows in a team
 };
 
 /// Corrects the modes of the entire body below `limit_hz` for the fixed-interface modes that the

@@ -174,7 +174,7 @@ void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const Cra
     out.mass_error = compare_mass(found, full).largest();
     out.mass_error_elements = compare_mass(found, part.full.mass).largest();
   }
-  out.certified = spectrum && part.full.parts.certified ? 1.0 : 0.0;
+  out.certified = spectrum && part.full.parts.certified() ? 1.0 : 0.0;
   out.dropped_vectors = source.dropped + source.interior.dropped;
   out.K_ii_rcond = source.factor.rcond;
   out.K_ii_probe_residual = source.factor.probe_residual;

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/artefact.hpp"
 #include "core/base/error.hpp"
@@ -66,30 +68,51 @@ void read_loads(const H5File& file, FeModel& model) {
   }
 }
 
+constexpr const char* kSheetOfParts = "sheet_of_parts";
+
 void write_parts(H5File& file, const FeParts& parts) {
-  if (parts.count == 0) return;
-  file.set("parts", "count", static_cast<int64_t>(parts.count));
-  file.set("parts", "certified", static_cast<int64_t>(parts.certified ? 1 : 0));
-  file.set("parts", "valid_to_hz", parts.valid_to_hz);
-  file.set("parts", "accurate_to_hz", parts.accurate_to_hz);
-  if (parts.sheet.rows() > 0) file.write("parts/sheet", parts.sheet);
+  for (const FePart& part : parts.list) {
+    const std::string at = "parts/" + part.name;
+    file.set(at, "certified", static_cast<int64_t>(part.certified ? 1 : 0));
+    file.set(at, "valid_to_hz", part.valid_to_hz);
+    file.set(at, "accurate_to_hz", part.accurate_to_hz);
+    if (part.truncation.rows() > 0) write_sparse(file, at + "/truncation", part.truncation, true);
+  }
+  if (parts.sheet.rows() > 0) file.write(kSheetOfParts, parts.sheet);
 }
 
-FeParts read_parts(const H5File& file, Eigen::Index n_nodes) {
+FeParts read_parts(const H5File& file, Eigen::Index n, Eigen::Index n_nodes) {
   FeParts parts;
-  if (!file.has("parts")) return parts;
-  parts.count = static_cast<int>(file.get_int("parts", "count"));
-  parts.certified = file.get_int("parts", "certified") != 0;
-  parts.valid_to_hz = file.get_double("parts", "valid_to_hz");
-  parts.accurate_to_hz = file.get_double("parts", "accurate_to_hz");
-  if (file.has("parts/sheet")) parts.sheet = file.read_index_matrix("parts/sheet");
+  for (const std::string& name : file.list("parts")) {
+    const std::string at = "parts/" + name;
+    FePart part{.name = name,
+                .certified = file.get_int(at, "certified") != 0,
+                .valid_to_hz = file.get_double(at, "valid_to_hz"),
+                .accurate_to_hz = file.get_double(at, "accurate_to_hz")};
+    if (const std::string matrix = at + "/truncation"; file.has(matrix)) {
+      part.truncation = read_sparse(file, matrix);
+      check_shape(file, matrix, part.truncation, n, n);
+    }
+    parts.list.push_back(std::move(part));
+  }
+  if (file.has(kSheetOfParts)) parts.sheet = file.read_index_matrix(kSheetOfParts);
   if (parts.sheet.size() > 0 &&
       (parts.sheet.cols() != 6 || parts.sheet.minCoeff() < 0 || parts.sheet.maxCoeff() >= n_nodes))
-    refuse(file, "parts/sheet", "faces of other nodes", "quadratic triangles of the model's");
+    refuse(file, kSheetOfParts, "faces of other nodes", "quadratic triangles of the model's");
   return parts;
 }
 
+double least(const FeParts& parts, double FePart::*value) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const FePart& part : parts.list) least = std::min(least, part.*value);
+  return least;
+}
+
 }  // namespace
+
+bool FeParts::certified() const { return std::ranges::all_of(list, &FePart::certified); }
+double FeParts::valid_to_hz() const { return least(*this, &FePart::valid_to_hz); }
+double FeParts::accurate_to_hz() const { return least(*this, &FePart::accurate_to_hz); }
 
 const rom::DofSet& FeModel::set(const std::string& set_name) const {
   const auto found = sets.find(set_name);
@@ -158,7 +181,7 @@ FeModel read_fe_model(const std::filesystem::path& path, FeMatrices matrices) {
   read_statics(file, model);
   if (model.size() == 0 && model.supports.size() == 0) refuse(file, "K", "no DoF", "at least one");
   model.cells = read_cells(file, model.nodes);
-  model.parts = read_parts(file, model.nodes.rows());
+  model.parts = read_parts(file, model.size(), model.nodes.rows());
   model.deck = read_deck_origin(file);
   return model;
 }

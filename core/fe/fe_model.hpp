@@ -50,13 +50,25 @@ struct FeRotations {
   SparseMatrix T_s;            // 3 nodes x n_s
 };
 
-/// What is known of the reduced parts in a model.
+/// What is known of a reduced part in a model.
+struct FePart {
+  std::string name;
+  bool certified = false;
+  double valid_to_hz = 0.0;
+  double accurate_to_hz = 0.0;  // by itself
+  /// n x n, lower triangle: its ReducedModel::truncation on the DoFs of the model; 0 x 0 where it
+  /// is not known.
+  SparseMatrix truncation{};
+};
+
+/// The reduced parts in a model.
 struct FeParts {
-  int count = 0;
-  bool certified = true;        // each of them
-  double valid_to_hz = 0.0;     // the least of them
-  double accurate_to_hz = 0.0;  // likewise, of each by itself
-  IndexMatrix sheet;            // faces of their skins that are sheet, f x 6 nodes of the model
+  std::vector<FePart> list{};
+  IndexMatrix sheet{};  // faces of their skins that are sheet, f x 6 nodes of the model
+
+  bool certified() const;         // each of them
+  double valid_to_hz() const;     // the least of them; infinite without parts
+  double accurate_to_hz() const;  // likewise
 };
 
 /// A steady temperature field.

@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/fe/free_motions.hpp"
+#include "core/fe/part_errors.hpp"
 #include "core/modes/factor_failure.hpp"
 
 namespace clatter::modes {
@@ -156,6 +157,9 @@ PartModes analyse(const fe::FeModel& model, const ModesOptions& options, const M
   part.modes = solve(left, eigen);
   refuse_rounding(part.name, part.modes);
   if (!options.fixed.empty()) spread(left, model.size(), part.modes.vectors);
+  for (const fe::FePart& one : model.parts.list) part.parts.push_back(one.name);
+  if (!part.parts.empty() && part.modes.vectors.rows() == model.size())
+    part.part_errors = fe::part_errors(model.parts, part.modes.values, part.modes.vectors);
   return part;
 }
 
@@ -207,6 +211,16 @@ void describe_doubt(const sparse::ModeSet& modes, std::vector<std::string>& line
                                 modes.massless));
 }
 
+/// What the modes that reduced parts lack cost a mode.
+std::string part_error_text(const PartModes& part, Eigen::Index mode) {
+  if (part.part_errors.rows() == 0 || mode < part.modes.rigid) return {};
+  const Eigen::RowVectorXd errors = part.part_errors.row(mode);
+  if (!errors.allFinite()) return "  parts unknown";
+  Eigen::Index worst = 0;
+  errors.maxCoeff(&worst);
+  return fmt::format("  parts {:.1e} ({})", errors.sum(), part.parts[worst]);
+}
+
 }  // namespace
 
 std::vector<std::string> describe(const PartModes& part) {
@@ -217,10 +231,10 @@ std::vector<std::string> describe(const PartModes& part) {
                               modes.size(), modes.method, modes.solves, modes.rigid));
   const Eigen::VectorXd hz = modes.frequencies_hz();
   for (Eigen::Index j = 0; j < modes.size(); ++j) {
-    lines.push_back(fmt::format("{:>5}  {} Hz  {} {:.1e}{}", j + 1, hz_text(hz[j]),
+    lines.push_back(fmt::format("{:>5}  {} Hz  {} {:.1e}{}{}", j + 1, hz_text(hz[j]),
                                 approximate ? "error about" : "residual",
                                 approximate ? modes.errors[j] : modes.residuals[j],
-                                j < modes.rigid ? "  rigid" : ""));
+                                j < modes.rigid ? "  rigid" : "", part_error_text(part, j)));
   }
   if (approximate)
     lines.push_back(

@@ -31,6 +31,8 @@ struct PartModes {
   std::string name;
   std::string source;  // "fe" or "rom"
   sparse::ModeSet modes;
+  std::vector<std::string> parts{};  // reduced parts in the model
+  Eigen::MatrixXd part_errors{};     // modes x parts: fe::part_errors
   RowMatrix nodes;  // n x 3 [m]: all nodes of an FE model, the skin of a reduced one
   std::map<std::string, mesh::Surface> surfaces;  // of `nodes`
   /// u = T q for the columns of q.

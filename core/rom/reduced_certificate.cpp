@@ -46,6 +46,10 @@ const std::vector<CertificateField<ReducedCertificate>>& ReducedCertificate::fie
        "the same without residual modes: for a body joined to others"},
       {"frequency_error_modes", &C::frequency_error_modes, "",
        "own elastic modes used for both estimates"},
+      {"frequency_error_parts", &C::frequency_error_parts, "",
+       "largest estimated relative error of these frequencies for the modes that reduced parts "
+       "lack",
+       good_up_to(0.01, "a reduced part needs a higher cut-off")},
       {"frequency_error_target", &C::frequency_error_target, "", "requested accuracy"},
       {"frequency_error_bound", &C::frequency_error_bound, "", "bound for the chosen cut-off"},
       {"cutoffs_tried", &C::cutoffs_tried, "", "cut-offs tried to find it"},

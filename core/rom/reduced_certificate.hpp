@@ -22,7 +22,7 @@ struct ReducedCertificate {
   std::optional<double> dropped_vectors, count_proved, count_below, count_limit_hz;
   // Accuracy.
   std::optional<double> cutoff_hz, accurate_to_hz, frequency_error_estimate;
-  std::optional<double> frequency_error_joined, frequency_error_modes;
+  std::optional<double> frequency_error_joined, frequency_error_modes, frequency_error_parts;
   std::optional<double> frequency_error_target, frequency_error_bound, rows_added_error;
   std::optional<double> cutoffs_tried, verified_to_hz, verified_modes;
   std::optional<double> verified_frequency_error, verified_mac;

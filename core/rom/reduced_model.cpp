@@ -256,6 +256,7 @@ void write_reduced_model(H5File& file, const ReducedModel& model) {
   write_damping_table(file, model.modal_damping);
   file.write("M_rr", model.M_rr);
   file.write("K_rr", model.K_rr);
+  if (model.truncation.rows() > 0) file.write("truncation", model.truncation);
   file.write("rigid", model.rigid);
   if (model.inertia_force.rows() > 0) file.write("inertia_force", model.inertia_force);
   file.write("fixed_interface_hz", model.fixed_interface_hz);
@@ -284,6 +285,7 @@ ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_ski
   const auto size = file.shape("M_rr").at(0);
   model.M_rr = read_symmetric(file, "M_rr", size);
   model.K_rr = read_symmetric(file, "K_rr", size);
+  if (file.has("truncation")) model.truncation = read_symmetric(file, "truncation", size);
   model.rigid = read_checked(file, "rigid", size, 6);
   if (file.has("inertia_force")) model.inertia_force = read_checked(file, "inertia_force", size, 6);
   model.fixed_interface_hz = file.read_vector("fixed_interface_hz");

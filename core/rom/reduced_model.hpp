@@ -102,8 +102,11 @@ struct ReducedModel {
   MassProperties mass;                 // of the full model
   Eigen::VectorXd fixed_interface_hz;  // frequencies of the kept modes
   double valid_to_hz = 0.0;            // highest frequency that the basis is intended for
-  Skin skin;                           // empty (0 rows) when not recovered
-  InertiaInvariants inertia;           // of a rotating body; empty unless requested
+  /// r x r or empty: a mode q of unit modal mass and value lambda of an assembly in which the part
+  /// stands is too high by lambda / 2 q^T truncation q of its frequency, for what the basis lacks.
+  Eigen::MatrixXd truncation{};
+  Skin skin;                  // empty (0 rows) when not recovered
+  InertiaInvariants inertia;  // of a rotating body; empty unless requested
   /// c x r, DoFs whose displacement is a combination of coordinates: those that became so when the
   /// interface was reduced, then those of recovered_sets. An index r + j in DofSet::dofs is the
   /// displacement combined.row(j) q.

@@ -291,8 +291,8 @@ TEST_F(CompleteParts, HardB11_WhatThePartsWereReducedForIsTheLimitOfTheAssembly)
   const fe::FeModel engine = joined(part("block", low.block) + part("plate", low.plate) + kTie +
                                     "[[nodes]]\nname = \"corner\"\nnode_set = \"block_joint\"\n")
                                  .model;
-  EXPECT_EQ(engine.parts.count, 2);
-  EXPECT_NEAR(engine.parts.valid_to_hz, 30e3, 1e-6);
+  EXPECT_EQ(engine.parts.list.size(), 2);
+  EXPECT_NEAR(engine.parts.valid_to_hz(), 30e3, 1e-6);
   const rom::ReducedModel again = reduced_again(engine, "corner", below(60e3));
   EXPECT_LE(again.certificate.cutoff_hz.value(), 30e3 + 1e-6);
   EXPECT_LE(again.valid_to_hz, 30e3 + 1e-6);
@@ -308,7 +308,7 @@ TEST_F(CompleteParts, HardB11_WhatThePartsWereReducedForIsTheLimitOfTheAssembly)
   const fe::FeModel doubtful = joined(part("block", bare) + part("plate", files_.plate) + kTie +
                                       "[[nodes]]\nname = \"corner\"\nnode_set = \"block_joint\"\n")
                                    .model;
-  EXPECT_FALSE(doubtful.parts.certified);
+  EXPECT_FALSE(doubtful.parts.certified());
   EXPECT_EQ(reduced_again(doubtful, "corner", below(5e3)).certificate.certified.value(), 0.0);
 }
 

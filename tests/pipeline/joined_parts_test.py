@@ -146,6 +146,32 @@ class JoinedParts(unittest.TestCase):
             self.assertLess(reduced["certificate"].attrs["mass_error"], 1e-9)
             self.assertLessEqual(reduced.attrs["valid_to_hz"], 40e3)
 
+    def test_the_error_of_each_joined_frequency_is_stated(self):
+        for name, cutoff in (("left", 50e3), ("right", 30e3)):
+            self.condense(name, cutoff, "frequency_error = 0.0\njoined_error = true\n")
+        parts = "".join(f'[[part]]\nname = "{name}"\nfile = "{name}.rom.h5"\n' for name in ("left", "right"))
+        (self.folder / "bar.fe.toml").write_text(parts + '[[tie]]\nslave = "right_cut"\nmaster = "left_cut"\n')
+        self.stage("assembly", "-c", "bar.fe.toml", "-o", "bar.fe.h5")
+        lines = self.stage("modal", "bar.fe.h5", "--fmax-hz", 15e3, "-o", "bar.modes.h5")
+        self.assertRegex(lines, r"Hz  residual \S+  parts \d\.\de-\d\d \(right\)")
+        with h5py.File(self.folder / "bar.modes.h5") as modes:
+            hz, errors = modes["frequency_hz"][()], modes["parts/errors"][()]
+            self.assertEqual([name.decode() for name in modes["parts/names"][()]], ["left", "right"])
+            worst = modes["certificate"].attrs["frequency_error_parts"]
+        stated = errors.sum(axis=1)
+        self.assertEqual(stated.max(), worst)
+        exact = self.whole_hz(15.5e3)[:len(hz)]
+        true = hz[6:] / exact[6:] - 1.0
+        self.assertGreater(len(true), 9)
+        np.testing.assert_array_less(stated[6:], 2.0 * true + 1e-9)
+        np.testing.assert_array_less(0.5 * true - 1e-9, stated[6:])
+        # The second reduction adds its own error and keeps that of the parts.
+        (self.folder / "bar.rom.toml").write_text('boundary = ["left_cut"]\nfmax_hz = 30000.0\nskin = []\n')
+        self.stage("condense", "bar.fe.h5", "-c", "bar.rom.toml", "-o", "bar.rom.h5")
+        with h5py.File(self.folder / "bar.rom.h5") as rom:
+            within = hz <= rom["certificate"].attrs["accurate_to_hz"]
+            np.testing.assert_allclose(rom["certificate"].attrs["frequency_error_parts"], stated[within].max(), rtol=0.02)
+
     def test_more_than_the_parts_have_is_refused_and_modes_above_are_said(self):
         self.condense("left", 40e3, "")
         self.condense("right", 20e3, "")

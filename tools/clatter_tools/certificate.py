@@ -33,6 +33,8 @@ GROUPS = [
         ("frequency_error_estimate", "{:.2e}", "largest estimated relative error of the body's own frequencies"),
         ("frequency_error_joined", "{:.2e}", "the same without residual modes: for a body joined to others"),
         ("frequency_error_modes", "{:.0f}", "own elastic modes used for both estimates"),
+        ("frequency_error_parts", "{:.2e}",
+         "largest estimated relative error of these frequencies for the modes that reduced parts lack"),
         ("frequency_error_target", "{:.2e}", "requested accuracy"),
         ("frequency_error_bound", "{:.2e}", "bound for the chosen cut-off"),
         ("cutoffs_tried", "{:.0f}", "cut-offs tried to find it"),
