@@ -34,6 +34,16 @@ Eigen::MatrixXd boundary_rows(const PartitionedModel& part, const Eigen::MatrixX
   return reduced;
 }
 
+/// The imaginary part of a complex stiffness on the basis.
+Eigen::MatrixXd loss_of(const PartitionedModel& part, const ReducedBasis& basis) {
+  if (part.interior().local() == nullptr)
+    throw InputError(fmt::format(
+        "{}: loss_factor: found a model shared by several processes, expected one process: "
+        "clatter-condense; or [damping] and [[modal_damping]] in place of loss factors",
+        part.full.name));
+  return basis.congruence(part.full.loss);
+}
+
 std::map<std::string, Eigen::VectorXd> reduced_loads(const fe::FeModel& model,
                                                      const DofPartition& dofs,
                                                      const ReducedBasis& basis) {
@@ -72,6 +82,11 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
     inertia = part.inertia(source.basis);
     clock.lap("inertia invariants");
   }
+  Eigen::MatrixXd loss;
+  if (model.loss.rows() > 0) {
+    loss = loss_of(part, source.basis);
+    clock.lap("loss factors");
+  }
   Eigen::MatrixXd lacking;
   if (options.joined_error) {
     lacking = truncation(source, *statics.factor_ii, part);
@@ -98,6 +113,7 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
                             .alpha = model.alpha,
                             .beta = model.beta,
                             .modal_damping = options.modal_damping,
+                            .loss = std::move(loss),
                             .rigid = boundary_rows(part, model.rigid, source.M_rr.rows()),
                             .inertia_force = std::move(of_frame),
                             .sets = std::move(rows.sets),

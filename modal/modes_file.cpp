@@ -45,6 +45,7 @@ void write_modes(H5File& file, const modes::PartModes& part) {
   file.write("eigenvalue", modes.values);
   file.write("residual", modes.residuals);
   file.write("rounding", modes.rounding);
+  if (part.loss_factors.size() > 0) file.write("loss_factor", part.loss_factors);
   if (part.part_errors.rows() > 0) {
     file.write("parts/names", part.parts);
     file.write("parts/errors", part.part_errors);

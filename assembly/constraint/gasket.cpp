@@ -69,9 +69,9 @@ SparseMatrix layer_stiffness(const PartData& part, const GasketSpec& spec, const
 
 }  // namespace
 
-SparseMatrix gasket_stiffness(const PartData& part) {
+GasketStiffness gasket_stiffness(const PartData& part) {
   const auto size = static_cast<Eigen::Index>(part.numbers.count());
-  SparseMatrix K(size, size);
+  GasketStiffness out{SparseMatrix(size, size), {}};
   for (GasketSpec spec : part.recipe.gaskets) {
     const Projection found = project_tie(part, spec);
     const Jumps jumps = jumps_of(part, spec, found);
@@ -81,12 +81,17 @@ SparseMatrix gasket_stiffness(const PartData& part) {
       throw InputError(fmt::format(
           "{}: found no face of {} whose nodes all face {} within {:.3g} m, expected some",
           spec.where, spec.slave, spec.master, *spec.distance));
-    K += SparseMatrix(
-        SparseMatrix(jumps.D.transpose() * layer * jumps.D).triangularView<Eigen::Lower>());
+    const SparseMatrix K =
+        SparseMatrix(jumps.D.transpose() * layer * jumps.D).triangularView<Eigen::Lower>();
+    out.K += K;
+    if (spec.loss_factor > 0.0) {
+      if (out.loss.rows() == 0) out.loss.resize(size, size);
+      out.loss += spec.loss_factor * K;
+    }
     say(fmt::format("{}: {:.4g} m2, {:.1f} % of the slave surface, largest gap {:.3g} m", spec.name,
                     area, 100.0 * area / found.slave_area, found.largest_gap));
   }
-  return K;
+  return out;
 }
 
 }  // namespace clatter::assembly

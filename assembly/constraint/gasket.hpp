@@ -11,8 +11,14 @@
 
 namespace clatter::assembly {
 
-/// K of all gaskets on all ids, lower triangle. Faces of the slave with a node that faces no master
+/// Of all gaskets on all ids, lower triangles.
+struct GasketStiffness {
+  SparseMatrix K;     // [N/m]
+  SparseMatrix loss;  // K times the loss factors; 0 x 0 where no gasket has one
+};
+
+/// Faces of the slave with a node that faces no master
 /// are left out; says the area that is left. InputError when there is none.
-SparseMatrix gasket_stiffness(const PartData& part);
+GasketStiffness gasket_stiffness(const PartData& part);
 
 }  // namespace clatter::assembly

@@ -14,11 +14,11 @@
 #include "assembly/load/nodal_matrix.hpp"
 #include "assembly/load/point_mass.hpp"
 #include "assembly/load/spring.hpp"
+#include "assembly/model/cell_terms.hpp"
 #include "assembly/model/certify.hpp"
 #include "assembly/model/check.hpp"
 #include "assembly/model/part_terms.hpp"
 #include "core/base/named.hpp"
-#include "core/fe/assemble.hpp"
 #include "core/fe/assemble_shells.hpp"
 #include "core/rom/rigid_mass.hpp"
 
@@ -64,16 +64,27 @@ fe::FeRotations rotations_of(const DofNumbers& numbers, const Elimination& elimi
           rows_of(elimination.T_s, first, count)};
 }
 
-fe::ShellIds shell_ids(const DofNumbers& numbers, Eigen::Index n_nodes) {
-  fe::ShellIds ids{numbers.count(), std::vector<int32_t>(static_cast<size_t>(n_nodes), -1)};
-  for (const int32_t node : numbers.turning()) ids.rotation_of[node] = numbers.rotation_of(node);
-  return ids;
-}
-
-/// `to` with more rows and columns, of all ids, and the shells, parts or gaskets.
-void add(SparseMatrix& to, const SparseMatrix& more) {
-  to.conservativeResize(more.rows(), more.cols());
-  to += more;
+/// The imaginary part of the stiffness, with springs and matrices between DoFs.
+CoordinateBlocks loss_blocks(SparseMatrix loss, const PartData& part,
+                             const Constrained& constrained) {
+  const Recipe& recipe = part.recipe;
+  std::vector<SpringSpec> springs = recipe.springs;
+  for (SpringSpec& spring : springs) spring.stiffness *= spring.loss_factor;
+  std::vector<MatrixSpec> matrices = recipe.matrices;
+  for (MatrixSpec& matrix : matrices) matrix.values *= matrix.loss_factor;
+  const auto any = [](const auto& list) {
+    return std::ranges::any_of(list, [](const auto& one) { return one.loss_factor > 0.0; });
+  };
+  const bool between = any(springs) || any(matrices);
+  if (loss.rows() == 0 && !between) return {};
+  const auto size = static_cast<Eigen::Index>(part.numbers.count());
+  loss.conservativeResize(size, size);
+  const Elimination& elimination = constrained.elimination;
+  CoordinateBlocks lost = transform_with_supports(std::move(loss), elimination);
+  if (!between) return lost;
+  add_springs(springs, constrained.springs, elimination, lost);
+  add_matrices(matrices, constrained.matrix_dofs, false, elimination, lost);
+  return lost;
 }
 
 /// M a of the shells of each centrifugal load.
@@ -261,21 +272,19 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
   clock.lap("couplings");
   const fe::NodePattern pattern = fe::node_pattern(mesh);
   clock.lap("pattern");
-  fe::NodalMatrices nodal =
-      fe::assemble(mesh, recipe.materials, pattern, recipe.mass, constrained.rigid_of_node);
-  if (!mesh.shells.empty()) {
-    const fe::NodalMatrices shells = fe::assemble_shells(
-        mesh, recipe.materials, recipe.sections, shell_ids(numbers, mesh.nodes.rows()), recipe.mass,
-        constrained.rigid_of_turning_node);
-    add(nodal.K, shells.K);
-    add(nodal.M, shells.M);
-  }
+  fe::NodalMatrices nodal = cell_matrices(part, constrained, pattern);
+  SparseMatrix loss = loss_of_cells(part, constrained, pattern);
   if (!recipe.parts.empty()) {
-    const fe::NodalMatrices parts = part_matrices(part);
+    const PartMatrices parts = part_matrices(part);
     add(nodal.K, parts.K);
     add(nodal.M, parts.M);
+    add(loss, parts.loss);
   }
-  if (!recipe.gaskets.empty()) add(nodal.K, gasket_stiffness(part));
+  if (!recipe.gaskets.empty()) {
+    const GasketStiffness gaskets = gasket_stiffness(part);
+    add(nodal.K, gaskets.K);
+    add(loss, gaskets.loss);
+  }
   clock.lap("assemble");
   LoadInputs inputs{.momentum = momentum_of(nodal.M, part),
                     .of_fields = momenta_of_fields(nodal.M, part),
@@ -284,6 +293,7 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
   if (!inputs.heat.empty()) clock.lap("heat");
   CoordinateBlocks K = transform_with_supports(std::move(nodal.K), elimination);
   CoordinateBlocks M = mass_blocks(std::move(nodal.M), elimination);
+  CoordinateBlocks lost = loss_blocks(std::move(loss), part, constrained);
   add_springs(recipe.springs, constrained.springs, elimination, K);
   add_matrices(recipe.matrices, constrained.matrix_dofs, false, elimination, K);
   add_matrices(recipe.matrices, constrained.matrix_dofs, true, elimination, M);
@@ -300,6 +310,7 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
       .model = {.name = mesh.name,
                 .M = taken(M.qq),
                 .K = taken(K.qq),
+                .loss = taken(lost.qq),
                 .T = taken(T),
                 .nodes = mesh.nodes,
                 .rigid = constrained.rigid,

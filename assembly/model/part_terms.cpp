@@ -211,14 +211,16 @@ void lengthen(Eigen::VectorXd& values, Eigen::Index size) {
 
 }  // namespace
 
-fe::NodalMatrices part_matrices(const PartData& part) {
-  Triplets K, M;
+PartMatrices part_matrices(const PartData& part) {
+  Triplets K, M, loss;
   for (const PartSpec& spec : part.recipe.parts) {
     const Coordinates coordinates = coordinates_of(spec, part.numbers);
     append(stiffness_of(spec.model), coordinates, K);
     append(spec.model.M_rr, coordinates, M);
+    if (spec.model.loss.rows() > 0) append(spec.model.loss, coordinates, loss);
   }
-  return {.M = from(M, part.numbers.count()), .K = from(K, part.numbers.count())};
+  const int64_t size = part.numbers.count();
+  return {.M = from(M, size), .K = from(K, size), .loss = from(loss, loss.empty() ? 0 : size)};
 }
 
 void add_parts(MassMoments& moments, const PartData& part) {

@@ -8,8 +8,12 @@
 
 namespace clatter::assembly {
 
-/// B^T K_rr B and B^T M_rr B of all parts, q = B u, on all ids; lower triangles.
-fe::NodalMatrices part_matrices(const PartData& part);
+/// Matrices B^T A B of all parts, q = B u, on all ids; lower triangles.
+struct PartMatrices {
+  SparseMatrix M, K;
+  SparseMatrix loss;  // 0 x 0 where no part has one
+};
+PartMatrices part_matrices(const PartData& part);
 
 /// Adds their mass properties.
 void add_parts(MassMoments& moments, const PartData& part);

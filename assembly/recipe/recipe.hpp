@@ -70,6 +70,7 @@ struct TieSpec : recipe::Tie {
 /// [[gasket]].
 struct GasketSpec : TieSpec {
   double normal = 0.0, tangential = 0.0;  // stiffnesses per area [N/m3]
+  double loss_factor = 0.0;
 };
 
 /// [[equation]]: sum coefficient * u = 0; the first term depends on the others.
@@ -88,6 +89,7 @@ struct SpringSpec {
   std::string name, where;
   double stiffness = 0.0;  // [N/m]; of rotations [N m/rad]
   std::vector<EquationSpec::Term> terms;
+  double loss_factor = 0.0;
 };
 
 /// [[matrix]]: stiffness or mass between DoFs, beside the cells.
@@ -96,6 +98,7 @@ struct MatrixSpec {
   bool is_mass = false;
   std::vector<EquationSpec::Term> terms;  // one per row; coefficients are unused
   Eigen::MatrixXd values;                 // symmetric; K [N/m, N, N m], M [kg, kg m, kg m2]
+  double loss_factor = 0.0;               // of K
 };
 
 /// [[straight_edges]].

@@ -122,6 +122,7 @@ void Resolver::beam(const recipe::Beam& beam, size_t number, Recipe& out) const 
   element.axes = axes_of(beam, x / element.length, is_round(element.stations));
   with_context(place, [&] {
     out.matrices.push_back(spec_of(name, place, false, terms, fe::beam_stiffness(element)));
+    out.matrices.back().loss_factor = beam.loss_factor;
     const MatrixSpec mass = spec_of(name, place, true, terms, fe::beam_mass(element, out.mass));
     if (!mass.terms.empty()) out.matrices.push_back(mass);
   });

@@ -127,7 +127,7 @@ SpringSpec Resolver::spring(const recipe::Spring& spring, size_t number) {
   const Source& table = spring.source;
   const std::string name = spring.name.empty() ? fmt::format("spring_{}", number) : spring.name;
   SpringSpec spec{name, where(table, "spring " + name), spring.stiffness,
-                  terms_of(table, "spring " + name, spring.terms)};
+                  terms_of(table, "spring " + name, spring.terms), spring.loss_factor};
   for (const recipe::Term& term : spring.terms) {
     const Source& source = source_of(term, table);
     if (term.coefficient == 0.0) source.fail("coefficient", "found 0, expected a nonzero number");
@@ -194,7 +194,7 @@ GasketSpec Resolver::gasket(const recipe::Gasket& gasket, size_t number) {
   const std::string name = gasket.name.empty() ? fmt::format("gasket_{}", number) : gasket.name;
   if (gasket.normal == 0.0 && gasket.tangential == 0.0)
     gasket.source.fail("normal_stiffness", "found 0 for both stiffnesses, expected one above");
-  return {tied(gasket, name, "gasket"), gasket.normal, gasket.tangential};
+  return {tied(gasket, name, "gasket"), gasket.normal, gasket.tangential, gasket.loss_factor};
 }
 
 }  // namespace clatter::assembly

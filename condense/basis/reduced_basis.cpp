@@ -38,6 +38,24 @@ MatrixXd ReducedBasis::project(const Eigen::Ref<const MatrixXd>& f_i,
   return out;
 }
 
+MatrixXd ReducedBasis::congruence(const SparseMatrix& A) const {
+  constexpr Index kBlock = 64;
+  const Index r = size();
+  const DofPartition& dofs = part_->dofs;
+  MatrixXd out(r, r);
+  for (Index first = 0; first < r; first += kBlock) {
+    const Index count = std::min(kBlock, r - first);
+    const MatrixXd q = MatrixXd::Identity(r, r).middleCols(first, count);
+    MatrixXd u(A.rows(), count);
+    u(dofs.interior, Eigen::all) = interior(q);
+    u(dofs.boundary, Eigen::all) = q.topRows(boundary());
+    const MatrixXd force = multiply_symmetric(A, u);
+    const MatrixXd f_i = force(dofs.interior, Eigen::all), f_b = force(dofs.boundary, Eigen::all);
+    out.middleCols(first, count) = project(f_i, f_b);
+  }
+  return 0.5 * (out + out.transpose());
+}
+
 ReducedMatrices project(const PartitionedModel& part, const StaticReduction& statics,
                         const ReducedBasis& basis) {
   constexpr Index kBlock = 64;

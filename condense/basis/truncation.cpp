@@ -38,23 +38,6 @@ MatrixXd work_of_inertia(const sparse::Factor& factor_ii, const PartitionedModel
   return work;
 }
 
-/// V^T F V of all reduced parts in an assembly, added to `out`.
-void add_parts(const ReducedBasis& basis, const PartitionedModel& part, MatrixXd& out) {
-  const Index r = basis.size();
-  for (Index first = 0; first < r; first += kBlock) {
-    const Index count = std::min(kBlock, r - first);
-    const MatrixXd q = MatrixXd::Identity(r, r).middleCols(first, count);
-    MatrixXd u(part.full.size(), count);
-    u(part.dofs.interior, Eigen::all) = basis.interior(q);
-    u(part.dofs.boundary, Eigen::all) = q.topRows(basis.boundary());
-    for (const fe::FePart& one : part.full.parts.list) {
-      const MatrixXd force = multiply_symmetric(one.truncation, u);
-      out.middleCols(first, count) += basis.project(force(part.dofs.interior, Eigen::all),
-                                                    force(part.dofs.boundary, Eigen::all));
-    }
-  }
-}
-
 /// All of them know their truncation, and one process has all rows.
 void check_parts(const PartitionedModel& part) {
   const std::string& name = part.full.name;
@@ -74,8 +57,7 @@ void check_parts(const PartitionedModel& part) {
 
 MatrixXd truncation(const Reduction& reduction, const sparse::Factor& factor_ii,
                     const PartitionedModel& part) {
-  const bool of_parts = !part.full.parts.list.empty();
-  if (of_parts) check_parts(part);
+  if (!part.full.parts.list.empty()) check_parts(part);
   const Index n_b = reduction.basis.boundary(), r = reduction.basis.size(), k = r - n_b;
   MatrixXd out = MatrixXd::Zero(r, r);
   out.topLeftCorner(n_b, n_b) = work_of_inertia(factor_ii, part);
@@ -85,7 +67,8 @@ MatrixXd truncation(const Reduction& reduction, const sparse::Factor& factor_ii,
         of_shapes.transpose() *
         dense::solve_symmetric(reduction.K_rr.bottomRightCorner(k, k), of_shapes);
   }
-  if (of_parts) add_parts(reduction.basis, part, out);
+  for (const fe::FePart& one : part.full.parts.list)
+    out += reduction.basis.congruence(one.truncation);
   return 0.5 * (out + out.transpose());
 }
 

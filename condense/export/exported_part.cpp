@@ -76,6 +76,7 @@ rom::ReducedModel in_units(rom::ReducedModel model, const UnitSystem& units) {
   const double energy = inertia / (units.time * units.time);
   model.K_rr = s.asDiagonal() * model.K_rr * s.asDiagonal() / energy;
   model.M_rr = s.asDiagonal() * model.M_rr * s.asDiagonal() / inertia;
+  if (model.loss.rows() > 0) model.loss = s.asDiagonal() * model.loss * s.asDiagonal() / energy;
   model.alpha /= units.time;
   model.beta *= units.time;
   model.modal_damping.hz *= units.time;

@@ -36,6 +36,7 @@ void export_matrix_market(const ExportedPart& part, const std::filesystem::path&
   for (Eigen::Index k = 0; k < model.modal_damping.hz.size(); ++k)
     lines.push_back(fmt::format("and of eigenmodes at {} Hz a ratio of {}, linear between",
                                 model.modal_damping.hz[k], model.modal_damping.ratio[k]));
+  if (model.loss.rows() > 0) lines.push_back("and of loss factors, which are not in this file");
   write_matrix_market(K, model.K_rr, lines);
 }
 

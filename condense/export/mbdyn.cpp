@@ -79,7 +79,7 @@ void export_mbdyn(const ExportedPart& part, const std::filesystem::path& path) {
   out << fmt::format(" {:.16e}\n", model.mass.mass);
   write_numbers(out, model.mass.centre);
   for (int d = 0; d < 3; ++d) write_numbers(out, model.mass.inertia.row(d));
-  write_matrix(out, 13, "MODAL DAMPING MATRIX", modal_rates(model, modes.Lambda));
+  write_matrix(out, 13, "MODAL DAMPING MATRIX", model.damping_rates(modes.Lambda, modes.Phi));
   file.commit();
 }
 

@@ -29,17 +29,15 @@ PencilModes elastic_modes_of(const rom::ReducedModel& model) {
   return {all.Phi.rightCols(all.elastic()), all.Lambda.tail(all.elastic()), 0};
 }
 
-Eigen::VectorXd modal_rates(const rom::ReducedModel& model, const Eigen::VectorXd& Lambda) {
-  return Eigen::VectorXd(model.alpha * Lambda.array() + model.beta) +
-         model.modal_damping.rates(Lambda);
-}
-
 Eigen::MatrixXd damping_of(const rom::ReducedModel& model) {
   Eigen::MatrixXd D = model.alpha * model.K_rr + model.beta * model.M_rr;
-  if (model.modal_damping.empty()) return D;
+  if (model.modal_damping.empty() && model.loss.rows() == 0) return D;
   const PencilModes modes = modes_of(model);
   const Eigen::MatrixXd M_Phi = model.M_rr * modes.Phi;
-  return D + M_Phi * model.modal_damping.rates(modes.Lambda).asDiagonal() * M_Phi.transpose();
+  Eigen::VectorXd rates = model.damping_rates(modes.Lambda, modes.Phi);
+  rates.array() -= model.alpha * modes.Lambda.array() + model.beta;  // in D already
+  rates.head(modes.rigid).setZero();
+  return D + M_Phi * rates.asDiagonal() * M_Phi.transpose();
 }
 
 }  // namespace clatter::condense

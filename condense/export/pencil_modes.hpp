@@ -22,9 +22,6 @@ PencilModes modes_of(const rom::ReducedModel& model);
 /// The elastic ones alone, `rigid` 0: floating frames of reference make the rigid motions.
 PencilModes elastic_modes_of(const rom::ReducedModel& model);
 
-/// Diagonal of the damping matrix of modes with these omega^2: alpha omega^2 + beta, and the table.
-Eigen::VectorXd modal_rates(const rom::ReducedModel& model, const Eigen::VectorXd& Lambda);
-
 /// alpha K_rr + beta M_rr and the table's M_rr Phi diag(2 zeta omega) Phi^T M_rr.
 Eigen::MatrixXd damping_of(const rom::ReducedModel& model);
 

@@ -120,7 +120,7 @@ void export_sid(const ExportedPart& part, const std::filesystem::path& path) {
   std::vector<Taylor> taylors = mass_integrals(frame);
   taylors.push_back({"ksigma", MatrixXd::Zero(n, 1)});
   taylors.push_back({"Ke", modes.Lambda.asDiagonal()});
-  taylors.push_back({"De", modal_rates(part.model, modes.Lambda).asDiagonal()});
+  taylors.push_back({"De", part.model.damping_rates(modes.Lambda, modes.Phi).asDiagonal()});
   for (const Taylor& taylor : taylors) write_taylor(out, "        ", n, taylor);
   out << "    end modal\nend part\n";
   file.commit();

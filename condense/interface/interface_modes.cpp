@@ -151,6 +151,7 @@ rom::ReducedModel transformed(const rom::ReducedModel& model, const Split& split
   const auto n_R = static_cast<Index>(split.stay.size());
   out.M_rr = projected(model.M_rr, W);
   out.K_rr = projected(model.K_rr, W);
+  if (model.loss.rows() > 0) out.loss = projected(model.loss, W);
   for (auto& [name, load] : out.loads) load = W.transpose() * model.loads.at(name);
   out.inertia = model.inertia.in(W);
   if (model.inertia_force.rows() > 0) out.inertia_force = W.transpose() * model.inertia_force;

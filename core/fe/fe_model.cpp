@@ -48,6 +48,7 @@ void check_matrices(const H5File& file, const FeModel& model) {
   const Eigen::Index n_nodes = model.nodes.rows();
   check_shape(file, "K", model.K, n, n);
   check_shape(file, "M", model.M, n, n);
+  if (model.loss.rows() > 0) check_shape(file, "loss", model.loss, n, n);
   check_shape(file, "T", model.T, 3 * n_nodes, n);
   check_shape(file, "nodes", model.nodes, n_nodes, 3);
   check_shape(file, "rigid", model.rigid, n, 6);
@@ -138,6 +139,7 @@ void write_fe_model(H5File& file, const FeModel& model) {
   file.set("/", "name", model.name);
   write_sparse(file, "M", model.M, true);
   write_sparse(file, "K", model.K, true);
+  if (model.loss.rows() > 0) write_sparse(file, "loss", model.loss, true);
   write_sparse(file, "T", model.T, false);
   file.write("nodes", model.nodes);
   file.write("rigid", model.rigid);
@@ -164,6 +166,8 @@ FeModel read_fe_model(const std::filesystem::path& path, FeMatrices matrices) {
   const bool complete = matrices == FeMatrices::kRead;
   model.M = complete ? read_sparse(file, "M") : shape_of_sparse(file, "M");
   model.K = complete ? read_sparse(file, "K") : shape_of_sparse(file, "K");
+  if (file.has("loss"))
+    model.loss = complete ? read_sparse(file, "loss") : shape_of_sparse(file, "loss");
   model.T = read_sparse(file, "T");
   model.nodes = file.read_rows("nodes");
   model.rigid = file.read_matrix("rigid");

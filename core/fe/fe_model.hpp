@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The assembled model of one part and its file, schema "clatter/fe/2":
-//   M, K (symmetric, lower), T (sparse groups), nodes, rigid, attributes alpha and beta of group
-//   `damping`, sets/, grids/, loads/<name> with attribute `unit`, surfaces/<name>/<face type>,
-//   mass/, data for statics (fe_statics_file.hpp), and the cells (fe_cells.hpp).
+//   M, K, loss (symmetric, lower), T (sparse groups), nodes, rigid, attributes alpha and beta of
+//   group `damping`, sets/, grids/, loads/<name> with attribute `unit`, surfaces/<name>/<face
+//   type>, mass/, data for statics (fe_statics_file.hpp), and the cells (fe_cells.hpp).
 #include <Eigen/Core>
 #include <filesystem>
 #include <map>
@@ -86,8 +86,11 @@ struct HeatField {
 /// [m]. The force on a generalised coordinate is a force [N] or moment [N m].
 struct FeModel {
   std::string name;
-  SparseMatrix M;   // n x n, lower triangle [kg, or kg m2 on rotations]
-  SparseMatrix K;   // n x n, lower triangle [N/m]
+  SparseMatrix M;  // n x n, lower triangle [kg, or kg m2 on rotations]
+  SparseMatrix K;  // n x n, lower triangle [N/m]
+  /// n x n, lower triangle: sum of loss factors times stiffnesses, the imaginary part of a complex
+  /// stiffness [N/m]; 0 x 0 where nothing has a loss factor.
+  SparseMatrix loss{};
   SparseMatrix T;   // 3 n_nodes x n: row 3 a + d is node a, direction d
   RowMatrix nodes;  // n_nodes x 3 [m]
   Eigen::MatrixXd

@@ -67,6 +67,13 @@ Elasticity anisotropic(const keys::Source& table, const std::vector<double>& upp
 
 }  // namespace
 
+Material Material::scaled(double factor) const {
+  Material out = *this;
+  out.youngs *= factor;
+  if (out.elasticity) *out.elasticity *= factor;
+  return out;
+}
+
 Elasticity Material::elasticity_at(const Eigen::Vector3d& x) const {
   Elasticity C;
   if (is_isotropic()) {

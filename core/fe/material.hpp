@@ -35,6 +35,7 @@ struct Material {
   double youngs = 0.0;                                  // E [Pa]; isotropic only
   double poisson = 0.0;                                 // nu [1]; isotropic only
   double density = 0.0;                                 // rho [kg/m3]
+  double loss_factor = 0.0;                             // eta of complex moduli (1 + i eta)
   std::optional<Elasticity> elasticity = std::nullopt;  // of any other material, in its axes [Pa]
   Voigt expansion = Voigt::Zero();          // thermal strain per kelvin in its axes [1/K]
   std::optional<Axes> axes = std::nullopt;  // absent: the global frame
@@ -46,6 +47,8 @@ struct Material {
   /// Shear modulus E / (2 (1 + nu)) [Pa].
   double mu() const { return 0.5 * youngs / (1.0 + poisson); }
   bool is_isotropic() const { return !elasticity; }
+  /// All moduli times `factor`.
+  Material scaled(double factor) const;
 
   /// Elasticity and thermal strain per kelvin in the global frame at position `x` [m].
   Elasticity elasticity_at(const Eigen::Vector3d& x) const;

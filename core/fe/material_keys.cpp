@@ -34,6 +34,9 @@ const keys::Keys<MaterialTable>& material_keys() {
         key.number("rho", m.material.density, Range::positive(), "density")
             .required()
             .shown_in("kg/m3");
+        key.number("loss_factor", m.material.loss_factor, Range::between(0.0, 1.0),
+                   "share of the elastic energy that a cycle loses, over 2 pi: complex moduli "
+                   "(1 + i loss_factor)");
         key.one_or_more("expansion", m.expansion, {},
                         "thermal expansion, one number or three along the axes")
             .shown_in("1/K");

@@ -84,6 +84,15 @@ sparse::ModeSet solve_named(const fe::FeModel& model, const std::vector<int32_t>
   }
 }
 
+/// x^T loss x / lambda of modes x of unit modal mass; 0 of rigid ones.
+/// @param image loss x, n x modes.
+Eigen::VectorXd loss_factors(const sparse::ModeSet& modes, const Eigen::MatrixXd& image) {
+  Eigen::VectorXd factors = Eigen::VectorXd::Zero(modes.size());
+  for (Eigen::Index j = modes.rigid; j < modes.size(); ++j)
+    factors[j] = modes.vectors.col(j).dot(image.col(j)) / modes.values[j];
+  return factors;
+}
+
 /// A frequency that rounding of K may move by all of itself has no digit (hard case F6).
 void refuse_rounding(const std::string& name, const sparse::ModeSet& modes) {
   Eigen::Index worst = 0;
@@ -157,6 +166,9 @@ PartModes analyse(const fe::FeModel& model, const ModesOptions& options, const M
   part.modes = solve(left, eigen);
   refuse_rounding(part.name, part.modes);
   if (!options.fixed.empty()) spread(left, model.size(), part.modes.vectors);
+  if (model.loss.rows() > 0 && part.modes.vectors.rows() == model.size())
+    part.loss_factors =
+        loss_factors(part.modes, multiply_symmetric(model.loss, part.modes.vectors));
   for (const fe::FePart& one : model.parts.list) part.parts.push_back(one.name);
   if (!part.parts.empty() && part.modes.vectors.rows() == model.size())
     part.part_errors = fe::part_errors(model.parts, part.modes.values, part.modes.vectors);
@@ -183,6 +195,8 @@ PartModes analyse(const rom::ReducedModel& model, const ModesOptions& options) {
   eigen.rigid = fe::free_motions(model, left);
   part.modes = sparse::solve_modes(K, M, eigen);
   spread(left, model.size(), part.modes.vectors);
+  if (model.loss.rows() > 0)
+    part.loss_factors = loss_factors(part.modes, model.loss * part.modes.vectors);
   part.displacements = [&model](const auto& q) -> Eigen::MatrixXd { return model.skin.T * q; };
   return part;
 }
@@ -211,6 +225,11 @@ void describe_doubt(const sparse::ModeSet& modes, std::vector<std::string>& line
                                 modes.massless));
 }
 
+std::string loss_text(const PartModes& part, Eigen::Index mode) {
+  if (part.loss_factors.size() == 0) return {};
+  return fmt::format("  loss factor {:.2e}", part.loss_factors[mode]);
+}
+
 /// What the modes that reduced parts lack cost a mode.
 std::string part_error_text(const PartModes& part, Eigen::Index mode) {
   if (part.part_errors.rows() == 0 || mode < part.modes.rigid) return {};
@@ -234,7 +253,8 @@ std::vector<std::string> describe(const PartModes& part) {
     lines.push_back(fmt::format("{:>5}  {} Hz  {} {:.1e}{}{}", j + 1, hz_text(hz[j]),
                                 approximate ? "error about" : "residual",
                                 approximate ? modes.errors[j] : modes.residuals[j],
-                                j < modes.rigid ? "  rigid" : "", part_error_text(part, j)));
+                                j < modes.rigid ? "  rigid" : loss_text(part, j),
+                                part_error_text(part, j)));
   }
   if (approximate)
     lines.push_back(

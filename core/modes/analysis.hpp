@@ -31,6 +31,7 @@ struct PartModes {
   std::string name;
   std::string source;  // "fe" or "rom"
   sparse::ModeSet modes;
+  Eigen::VectorXd loss_factors{};    // by modal strain energy; empty where nothing has one
   std::vector<std::string> parts{};  // reduced parts in the model
   Eigen::MatrixXd part_errors{};     // modes x parts: fe::part_errors
   RowMatrix nodes;  // n x 3 [m]: all nodes of an FE model, the skin of a reduced one

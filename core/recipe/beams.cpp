@@ -40,6 +40,8 @@ const Keys<Beam>& beam_keys() {
         key.number("G", beam.G, Range::not_negative(), "shear modulus, for torsion and shear")
             .shown_in("Pa");
         key.number("rho", beam.rho, Range::not_negative(), "density").shown_in("kg/m3");
+        key.number("loss_factor", beam.loss_factor, Range::between(0.0, 1.0),
+                   "share of its energy that a cycle loses, over 2 pi");
         key.numbers("shear_factors", beam.shear_factors, Range::positive(),
                     "k of the shear stiffness k G area along y and z; rigid in shear without it")
             .count(2)

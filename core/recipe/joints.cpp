@@ -166,6 +166,12 @@ void surface_rows(Rows& key, Tie& tie, bool needs_slave) {
       .in_length_unit();
 }
 
+template <class Rows>
+void loss_row(Rows& key, double& loss_factor) {
+  key.number("loss_factor", loss_factor, Range::between(0.0, 10.0),
+             "share of its energy that a cycle loses, over 2 pi");
+}
+
 }  // namespace
 
 const Keys<Equation>& equation_keys() {
@@ -188,6 +194,7 @@ const Keys<Spring>& spring_keys() {
                    "force over the sum; moment over it where all are rotations [N m/rad]")
             .required()
             .shown_in("N/m");
+        loss_row(key, spring.loss_factor);
         key.tables("terms", spring.terms, term_keys()).required().one_line();
       });
   return keys;
@@ -264,6 +271,7 @@ const Keys<Gasket>& gasket_keys() {
                    "shear stress over the sliding: shear modulus over thickness")
             .required()
             .shown_in("N/m3");
+        loss_row(key, gasket.loss_factor);
       });
   return keys;
 }

@@ -157,6 +157,7 @@ struct Spring {
   std::string name;
   double stiffness = 0.0;  // [N/m]; of rotations [N m/rad]
   std::vector<Term> terms;
+  double loss_factor = 0.0;
 };
 
 /// [[matrix]]: stiffness or mass between DoFs, beside the cells.
@@ -181,9 +182,10 @@ struct BeamSection {
 struct Beam {
   Source source{};
   std::string name{};
-  std::vector<std::string> points{};    // two
-  double E = 0.0, G = 0.0;              // [Pa]
-  double rho = 0.0;                     // [kg/m3]
+  std::vector<std::string> points{};  // two
+  double E = 0.0, G = 0.0;            // [Pa]
+  double rho = 0.0;                   // [kg/m3]
+  double loss_factor = 0.0;
   std::vector<double> shear_factors{};  // k of k G A along y, z; empty: rigid in shear
   std::optional<Eigen::Vector3d> y{};   // a direction in the plane of x and y
   std::optional<Eigen::Vector3d> offset_a{}, offset_b{};  // of its ends from the points [m]
@@ -217,6 +219,7 @@ struct Tie {
 /// [[gasket]]: an elastic layer between the surfaces of a tie.
 struct Gasket : Tie {
   double normal = 0.0, tangential = 0.0;  // stiffnesses per area [N/m3]
+  double loss_factor = 0.0;
 };
 
 /// [[contact]]: a grid of patches on a cylinder surface.

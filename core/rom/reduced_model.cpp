@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/base/error.hpp"
 #include "core/base/named.hpp"
 
@@ -191,6 +194,17 @@ const ContactGrid& ReducedModel::grid(const std::string& grid_name) const {
   return find_named(grids, name, "contact grid", grid_name);
 }
 
+Eigen::VectorXd ReducedModel::damping_rates(const Eigen::VectorXd& omega_squared,
+                                            const Eigen::MatrixXd& modes) const {
+  Eigen::VectorXd rates = alpha * omega_squared.array() + beta;
+  rates += modal_damping.rates(omega_squared);
+  if (loss.rows() == 0) return rates;
+  const Eigen::VectorXd energy = modes.cwiseProduct(loss * modes).colwise().sum();
+  for (Eigen::Index k = 0; k < rates.size(); ++k)
+    if (omega_squared[k] > 0.0) rates[k] += std::max(0.0, energy[k]) / std::sqrt(omega_squared[k]);
+  return rates;
+}
+
 Eigen::RowVectorXd ReducedModel::row_of(int dof) const {
   if (dof >= size()) return combined.row(dof - size());
   return Eigen::RowVectorXd::Unit(size(), dof);
@@ -256,6 +270,7 @@ void write_reduced_model(H5File& file, const ReducedModel& model) {
   write_damping_table(file, model.modal_damping);
   file.write("M_rr", model.M_rr);
   file.write("K_rr", model.K_rr);
+  if (model.loss.rows() > 0) file.write("loss", model.loss);
   if (model.truncation.rows() > 0) file.write("truncation", model.truncation);
   file.write("rigid", model.rigid);
   if (model.inertia_force.rows() > 0) file.write("inertia_force", model.inertia_force);
@@ -285,6 +300,7 @@ ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_ski
   const auto size = file.shape("M_rr").at(0);
   model.M_rr = read_symmetric(file, "M_rr", size);
   model.K_rr = read_symmetric(file, "K_rr", size);
+  if (file.has("loss")) model.loss = read_symmetric(file, "loss", size);
   if (file.has("truncation")) model.truncation = read_symmetric(file, "truncation", size);
   model.rigid = read_checked(file, "rigid", size, 6);
   if (file.has("inertia_force")) model.inertia_force = read_checked(file, "inertia_force", size, 6);

@@ -89,6 +89,9 @@ struct ReducedModel {
   double alpha = 0.0;          // stiffness-proportional damping [s]
   double beta = 0.0;           // mass-proportional damping [1/s]
   DampingTable modal_damping;  // added to both
+  /// r x r or empty: the imaginary part of a complex stiffness [N/m], whose damping of each mode is
+  /// added too: q^T loss q / omega [1/s] for a mode q of unit modal mass.
+  Eigen::MatrixXd loss{};
   Eigen::MatrixXd
       rigid;  // r x 6: q of unit rigid-body motions x, y, z, rx, ry, rz about the origin
   /// r x 6: inertia forces on q of unit accelerations of the part's frame, V^T (M R + M_qs R_s), of
@@ -121,6 +124,11 @@ struct ReducedModel {
   int dof_count() const { return size() + static_cast<int>(combined.rows()); }
   /// The displacement of DoF `dof` < dof_count() as a row of r coefficients of q.
   Eigen::RowVectorXd row_of(int dof) const;
+  /// Viscous damping rates 2 zeta omega [1/s] of modes q (columns of `modes`, unit modal mass) with
+  /// these omega^2 [1/s2]: alpha omega^2 + beta, modal_damping, and q^T loss q / omega, which gives
+  /// the loss factor at the mode's own frequency (modal strain energy, Johnson and Kienholz 1982).
+  Eigen::VectorXd damping_rates(const Eigen::VectorXd& omega_squared,
+                                const Eigen::MatrixXd& modes) const;
   const DofSet& set(const std::string& set_name) const;  // InputError listing the existing names
   const ContactGrid& grid(
       const std::string& grid_name) const;  // InputError listing the existing names

@@ -137,8 +137,7 @@ ModalBody make_modal_body(const rom::ReducedModel& model, const ModalBodyOptions
   if (model.combined.rows() > 0) body.combined = model.combined * body.shapes;
   body.omega_squared = spectrum.omega_squared;
   body.rigid_modes = static_cast<int>(free.cols());
-  body.damping = model.alpha * body.omega_squared.array() + model.beta;
-  body.damping += model.modal_damping.rates(body.omega_squared);
+  body.damping = model.damping_rates(body.omega_squared, body.shapes);
   body.damping.head(body.rigid_modes).setZero();
   body.inertia = VectorXd::Ones(body.modes());
   if (options.mode_limit_hz > 0.0) {

@@ -66,6 +66,25 @@ TEST(ModalDamping, FreeVibrationOfEachModeDiesAwayByItsTableRow) {
   }
 }
 
+TEST(ModalDamping, LossFactorsAreThoseOfEachModeAtItsOwnFrequency) {
+  // Half of the bar loses energy.
+  rom::ReducedModel bar = clamped_bar(1.0, 100, 10);
+  bar.loss = 0.02 * bar.K_rr;
+  const Eigen::Index half = bar.loss.rows() / 2;
+  bar.loss.topRows(half).setZero();
+  bar.loss.leftCols(half).setZero();
+  const ModalBody body = make_modal_body(bar, {});
+  for (const int k : {0, 1, 2}) {
+    const Eigen::VectorXd shape = body.shapes.col(k);
+    const double eta = shape.dot(bar.loss * shape) / body.omega_squared(k);
+    EXPECT_GT(eta, 0.0);
+    EXPECT_NEAR(body.damping(k), eta * std::sqrt(body.omega_squared(k)), 1e-12 * body.damping(k));
+    const double zeta = 0.5 * eta;
+    const double expected = 2.0 * std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta);
+    EXPECT_NEAR(decrement(body, k, zeta, 5), expected, 1e-4 * expected);
+  }
+}
+
 TEST(ModalDamping, RayleighAndTableAddUp) {
   rom::ReducedModel bar = bar_with_table();
   bar.alpha = 5e-7;

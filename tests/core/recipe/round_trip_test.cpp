@@ -88,6 +88,7 @@ void add_materials(Random& r, File& file) {
   steel.material.E_in_gpa = r.flip();
   steel.material.nu = {0.25 + 0.1 * r.flip()};
   steel.material.material.density = r.positive();
+  steel.material.material.loss_factor = 0.01 * r.flip();
   steel.material.material.integration.hex20 =
       r.one_of({fe::Integration::kFull, fe::Integration::kReduced});
   if (r.flip()) steel.material.expansion = r.numbers(3);
@@ -141,6 +142,7 @@ void add_joints(Random& r, File& file) {
   gasket.master = r.name();
   gasket.normal = r.positive();
   gasket.tangential = r.positive();
+  gasket.loss_factor = 0.2 * r.flip();
   file.ties.push_back({{}, r.name(), r.name(), r.name(), {}});
   file.ties.push_back({{}, "", r.name(), r.name(), r.positive()});
   file.bolts.push_back({{}, r.name(), r.name(), r.name(), r.positive(), r.direction()});
