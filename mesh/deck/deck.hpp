@@ -55,8 +55,9 @@ struct Material {
   std::string name, where;
   Kind kind = Kind::kIsotropic;
   std::vector<double> constants;
-  bool of_sheets = false;         // some constants have no part in a sheet, and are not known
-  double density = 0.0;           // 0: the deck has none
+  bool of_sheets = false;  // some constants have no part in a sheet, and are not known
+  double density = 0.0;    // 0: the deck has none
+  double loss_factor = 0.0;
   std::vector<double> expansion;  // 1 (isotropic), 3 (along the axes) or none [1/K]
   double reference_temperature = 0.0;
   double mass_damping = 0.0;       // the deck's damping: this times M [1/time]

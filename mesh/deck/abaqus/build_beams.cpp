@@ -79,6 +79,7 @@ void take_material(const Model& model, const Card& card, Beam& beam) {
   beam.E = material.constants[0];
   beam.G = beam.E / (2.0 * (1.0 + material.constants[1]));
   beam.rho = material.density;
+  beam.loss_factor = material.loss_factor;
 }
 
 }  // namespace

@@ -184,12 +184,16 @@ void read_expansion(Model& model, const Card& card, Material* material) {
   }
 }
 
-// D = ALPHA M + BETA K; other kinds are of steps that are not read.
+// D = ALPHA M + BETA K, and STRUCTURAL, the loss factor; other kinds are of steps that are not
+// read.
 void read_damping(Model& model, const Card& card, Material* material) {
   const Keyword& keyword = card.keyword();
   constexpr int64_t kNoMore = 0;  // it is counted
   model.refusals.contents().pass("keyword", keyword.name, model.source, card.origin(),
                                  "damping, offered to the recipe", kNoMore);
+  if (keyword.has("STRUCTURAL") && keyword.choice("STRUCTURAL", "") != "TABULAR")
+    material->loss_factor =
+        Fields(*keyword.find("STRUCTURAL"), model.source, card.origin()).number(0, "STRUCTURAL");
   const auto found = rayleigh_of(card, model.source);
   if (!found) return;
   material->mass_damping = found->mass;

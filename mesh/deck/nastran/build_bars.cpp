@@ -66,6 +66,7 @@ class Bar {
     beam.E = E;
     beam.G = G;
     beam.rho = found->second.density * model_.raw.control.mass_factor;
+    beam.loss_factor = found->second.loss_factor;
     if (model_.raw.control.mass_factor == 1.0) return;
     for (recipe::BeamSection& section : beam.sections)
       section.line_mass *= model_.raw.control.mass_factor;

@@ -67,6 +67,7 @@ Material material_of(const Model& model, int32_t id) {
   material.name = fmt::format("mat_{}", id);
   material.where = model.source.where(raw.origin);
   material.density = raw.density * model.raw.control.mass_factor;
+  material.loss_factor = raw.loss_factor;
   material.expansion = raw.expansion;
   material.reference_temperature = raw.reference_temperature;
   return material;

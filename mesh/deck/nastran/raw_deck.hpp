@@ -82,6 +82,7 @@ struct RawMaterial {
   std::array<double, 3> moduli{};  // MAT1: E, G, NU; NaN: blank
   std::vector<double> constants;   // of others; 0 where MAT8 is blank
   double density = 0.0, reference_temperature = 0.0;
+  double loss_factor = 0.0;  // GE
   std::vector<double> expansion;
 };
 

@@ -22,13 +22,16 @@ void add_material(const Card& card, RawDeck& raw, const RawMaterial& material) {
 }
 
 /// RHO, A1 and A2 are fields 7 to 9 of both cards.
-void add_sheet_material(const Card& card, size_t reference, RawMaterial material, RawDeck& raw) {
+/// @param reference, loss_factor fields of TREF and GE.
+void add_sheet_material(const Card& card, size_t reference, size_t loss_factor,
+                        RawMaterial material, RawDeck& raw) {
   material.origin = card.origin();
   material.of_sheets = true;
   material.density = card.number_or(7, "RHO", 0.0);
   material.expansion = {card.number_or(8, "A1", 0.0), card.number_or(9, "A2", 0.0), 0.0};
   if (material.expansion == std::vector<double>(3, 0.0)) material.expansion.clear();
   material.reference_temperature = card.number_or(reference, "TREF", 0.0);
+  material.loss_factor = card.number_or(loss_factor, "GE", 0.0);
   add_material(card, raw, material);
 }
 
@@ -59,6 +62,7 @@ void read_mat1(const Card& card, RawDeck& raw) {
   material.density = card.number_or(4, "RHO", 0.0);
   if (!card.blank(5)) material.expansion = {card.number(5, "A")};
   material.reference_temperature = card.number_or(6, "TREF", 0.0);
+  material.loss_factor = card.number_or(7, "GE", 0.0);
   add_material(card, raw, material);
 }
 
@@ -74,6 +78,7 @@ void read_mat9(const Card& card, RawDeck& raw) {
     if (card.number_or(i, "A", 0.0) != 0.0) card.fail(i, "thermal shear strains are not supported");
   }
   material.reference_temperature = card.number_or(29, "TREF", 0.0);
+  material.loss_factor = card.number_or(30, "GE", 0.0);
   add_material(card, raw, material);
 }
 
@@ -88,7 +93,7 @@ void read_mat2(const Card& card, RawDeck& raw) {
                         across, 0.0,  0.0, 0.0,  g[5], 0.0, 0.0,  g[5], 0.0,  g[5]};
   if (card.number_or(10, "A3", 0.0) != 0.0)
     card.fail(10, "thermal shear strains are not supported");
-  add_sheet_material(card, 11, std::move(material), raw);
+  add_sheet_material(card, 11, 12, std::move(material), raw);
 }
 
 // E3, NU13 and NU23 have no part in a sheet.
@@ -102,7 +107,7 @@ void read_mat8(const Card& card, RawDeck& raw) {
   material.constants = {
       modulus(1, "E1"), E2, E2, modulus(3, "NU12"), 0.0, 0.0, modulus(4, "G12"), modulus(5, "G1Z"),
       modulus(6, "G2Z")};
-  add_sheet_material(card, 10, std::move(material), raw);
+  add_sheet_material(card, 10, 16, std::move(material), raw);
 }
 
 void read_other_property(const Card& card, RawDeck& raw) {

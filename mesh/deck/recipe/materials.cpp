@@ -63,6 +63,7 @@ recipe::RegionMaterial material_of(const Deck& deck, const std::string& name,
   out.source = keys::Source(material.where);
   set_constants(material, out.material);
   out.material.material.density = material.density;
+  out.material.material.loss_factor = material.loss_factor;
   if (!(material.density > 0.0) && shell != nullptr && shell->section.area_mass > 0.0) {
     out.material.material.density = 1e-9;  // beside it no digit of the area's mass changes
     out.source.remark("rho", "the deck has none: its shells have the mass of their area");

@@ -154,6 +154,8 @@ TEST(AbaqusDamping, OfMaterialsAndStepsIsOffered) {
   EXPECT_EQ(m.mass_damping, 2.0);
   EXPECT_EQ(m.stiffness_damping, 1e-5);
   EXPECT_EQ(material(elastic + "*DAMPING, ALPHA=TABULAR\n1., 20.\n").mass_damping, 0.0);
+  EXPECT_EQ(material(elastic + "*DAMPING, STRUCTURAL=.03\n").loss_factor, 0.03);
+  EXPECT_EQ(m.loss_factor, 0.0);
   EXPECT_THAT(bad_material(elastic + "*DAMPING, ALPHA=x\n"),
               ::testing::HasSubstr("expected a number (ALPHA)"));
 

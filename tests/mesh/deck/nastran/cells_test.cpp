@@ -140,7 +140,7 @@ TEST(NastranCell, GridsThatComeTwiceMustAgree) {
 
 TEST(NastranRegions, OneForEachPropertyWithItsMaterial) {
   const Deck deck =
-      read_deck(kTet + "CTETRA,2,8,1,2,3,4\nPSOLID,8,2\nMAT1,2,70.,30.,,2.7,2.3-5,20.\n");
+      read_deck(kTet + "CTETRA,2,8,1,2,3,4\nPSOLID,8,2\nMAT1,2,70.,30.,,2.7,2.3-5,20.,.02\n");
   EXPECT_THAT(deck.mesh.regions, ElementsAre("pid_1", "pid_8"));
   EXPECT_EQ(deck.regions[1].material, "mat_2");
   EXPECT_EQ(deck.regions[1].where, "t.bdf:9");
@@ -150,6 +150,7 @@ TEST(NastranRegions, OneForEachPropertyWithItsMaterial) {
   EXPECT_EQ(material.density, 2.7);
   EXPECT_THAT(material.expansion, ElementsAre(2.3e-5));
   EXPECT_EQ(material.reference_temperature, 20.0);
+  EXPECT_EQ(material.loss_factor, 0.02);
 }
 
 TEST(NastranRegions, MissingOnesAreNamed) {
