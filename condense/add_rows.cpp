@@ -154,6 +154,7 @@ rom::ReducedModel add_rows(const fe::FeModel& model, const rom::ReducedModel& st
   // The count of modes is proved again, so that the solver takes identical steps. Otherwise its
   // rounding, 1e-14 of a mode, is amplified to 1e-4 of the weakest residual mode.
   options.certificate = options.inertia_invariants = options.modes.estimate_error = false;
+  options.joined_error = false;
   rom::ReducedModel fresh = condense(model, options, clock);
   const double error = align_basis(fresh, stored);
   clock.lap("comparison with the stored basis");

@@ -59,8 +59,9 @@ void limit_to_parts(const fe::FeModel& model, const ModeRequest& request, CraigB
         "parts lack, most by part {}",
         model.name, hz, 100.0 * error, worst_part(parts, report.of_parts.row(j)));
     if (requested || j == 0)
-      throw NumericsError(fmt::format(
-          "{}, expected at most {:g} %: reduce it with a higher cut-off", what, 100.0 * limit));
+      throw NumericsError(
+          fmt::format("{}, expected at most {:g} %: reduce it with a higher cut-off{}", what,
+                      100.0 * limit, requested ? ", or allow more (frequency_error)" : ""));
     interior.accurate_to_hz = report.modes_hz[j - 1];
     warn(fmt::format("{}: accurate to {:.1f} Hz", what, interior.accurate_to_hz));
   }
