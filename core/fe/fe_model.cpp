@@ -166,8 +166,7 @@ FeModel read_fe_model(const std::filesystem::path& path, FeMatrices matrices) {
   const bool complete = matrices == FeMatrices::kRead;
   model.M = complete ? read_sparse(file, "M") : shape_of_sparse(file, "M");
   model.K = complete ? read_sparse(file, "K") : shape_of_sparse(file, "K");
-  if (file.has("loss"))
-    model.loss = complete ? read_sparse(file, "loss") : shape_of_sparse(file, "loss");
+  if (file.has("loss")) model.loss = read_sparse(file, "loss");
   model.T = read_sparse(file, "T");
   model.nodes = file.read_rows("nodes");
   model.rigid = file.read_matrix("rigid");

@@ -132,7 +132,7 @@ void write_fe_model(H5File& file, const FeModel& model);
 /// K, and that every DoF of a set exists. n is 0 where supports hold every DoF.
 /// InputError names the file, dataset, found and expected.
 /// @param matrices kLeftOut: K and M have their shape and no entries, for programs that read them
-/// in parts.
+/// in parts; loss is read.
 enum class FeMatrices { kRead, kLeftOut };
 FeModel read_fe_model(const std::filesystem::path& path, FeMatrices matrices = FeMatrices::kRead);
 
