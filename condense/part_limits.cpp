@@ -43,11 +43,7 @@ void limit_to_parts(const fe::FeModel& model, const ModeRequest& request, CraigB
   InteriorModes& interior = source.interior;
   interior.cutoff_hz = std::min(interior.cutoff_hz, parts.valid_to_hz());
   interior.accurate_to_hz = std::min(interior.accurate_to_hz, parts.accurate_to_hz());
-  if (const std::string unknown = fe::parts_without_truncation(parts); !unknown.empty())
-    warn(
-        fmt::format("{}: the error by the modes that {} lack is not known: joined_error = true in "
-                    "their rom.toml",
-                    model.name, unknown));
+  fe::warn_of_unknown_errors(parts, model.name);
   const ResidualReport& report = source.residual;
   const bool requested = request.accurate_to_hz > 0.0;
   const double limit = requested ? request.frequency_error : kTooFar;

@@ -49,11 +49,7 @@ void warn_of_parts(const modes::PartModes& part, const fe::FeParts& parts) {
   if (above > 0)
     warn(fmt::format("{} of {} modes lie above {:g} Hz, to which the reduced parts are valid",
                      above, part.modes.values.size(), parts.valid_to_hz()));
-  if (const std::string unknown = fe::parts_without_truncation(parts); !unknown.empty())
-    warn(
-        fmt::format("the error by the modes that {} lack is not known: joined_error = true in "
-                    "their rom.toml",
-                    unknown));
+  fe::warn_of_unknown_errors(parts, part.name);
 }
 
 void compute_modes(const ModesArguments& a, const ModeFinder& finder, const CommonOptions& common) {

@@ -17,8 +17,8 @@ struct GasketStiffness {
   SparseMatrix loss;  // K times the loss factors; 0 x 0 where no gasket has one
 };
 
-/// Faces of the slave with a node that faces no master
-/// are left out; says the area that is left. InputError when there is none.
+/// Faces of a slave with a node that faces no master are left out; says the area that is left.
+/// InputError when there is none.
 GasketStiffness gasket_stiffness(const PartData& part);
 
 }  // namespace clatter::assembly

@@ -40,19 +40,30 @@ MatrixXd ReducedBasis::project(const Eigen::Ref<const MatrixXd>& f_i,
 
 MatrixXd ReducedBasis::congruence(const SparseMatrix& A) const {
   constexpr Index kBlock = 64;
-  const Index r = size();
+  const Index n_b = boundary(), r = size();
   const DofPartition& dofs = part_->dofs;
+  // A u for columns u with these interior rows and, at most, those of the boundary.
+  const auto force = [&](const MatrixXd& u_i, const MatrixXd& u_b) -> MatrixXd {
+    MatrixXd u(A.rows(), u_i.cols());
+    u(dofs.interior, Eigen::all) = u_i;
+    u(dofs.boundary, Eigen::all) = u_b;
+    return multiply_symmetric(A, u);
+  };
   MatrixXd out(r, r);
-  for (Index first = 0; first < r; first += kBlock) {
-    const Index count = std::min(kBlock, r - first);
-    const MatrixXd q = MatrixXd::Identity(r, r).middleCols(first, count);
-    MatrixXd u(A.rows(), count);
-    u(dofs.interior, Eigen::all) = interior(q);
-    u(dofs.boundary, Eigen::all) = q.topRows(boundary());
-    const MatrixXd force = multiply_symmetric(A, u);
-    const MatrixXd f_i = force(dofs.interior, Eigen::all), f_b = force(dofs.boundary, Eigen::all);
+  for (Index first = 0; first < n_b; first += kBlock) {
+    const Index count = std::min(kBlock, n_b - first);
+    const MatrixXd q = MatrixXd::Identity(r, n_b).middleCols(first, count);
+    const MatrixXd f = force(interior(q), q.topRows(n_b));
+    const MatrixXd f_i = f(dofs.interior, Eigen::all), f_b = f(dofs.boundary, Eigen::all);
     out.middleCols(first, count) = project(f_i, f_b);
   }
+  for (Index first = 0; first < shapes.cols(); first += kBlock) {
+    const Index count = std::min(kBlock, shapes.cols() - first);
+    const MatrixXd f = force(shapes.middleCols(first, count), MatrixXd::Zero(n_b, count));
+    out.block(n_b, n_b + first, shapes.cols(), count) =
+        sparse::transposed_product(shapes, MatrixXd(f(dofs.interior, Eigen::all)));
+  }
+  out.topRightCorner(n_b, r - n_b) = out.bottomLeftCorner(r - n_b, n_b).transpose();
   return 0.5 * (out + out.transpose());
 }
 

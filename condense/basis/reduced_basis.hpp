@@ -31,8 +31,8 @@ class ReducedBasis {
   /// V^T f for loads f_i (n_i x m) and f_b (n_b x m).
   Eigen::MatrixXd project(const Eigen::Ref<const Eigen::MatrixXd>& f_i,
                           const Eigen::Ref<const Eigen::MatrixXd>& f_b) const;
-  /// V^T A V of a symmetric matrix on all DoFs, lower triangle; r x r, both triangles. In blocks of
-  /// columns, by three half solves each. Of one process.
+  /// V^T A V of a symmetric matrix on all DoFs, lower triangle; r x r, both triangles. Three half
+  /// solves for each boundary coordinate. Of one process.
   Eigen::MatrixXd congruence(const SparseMatrix& A) const;
 
  private:

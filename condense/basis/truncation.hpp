@@ -11,9 +11,9 @@ namespace clatter::condense {
 ///   F = H^T K_ii^{-1} H - (X^T H)^T (X^T K_ii X)^{-1} X^T H    in the rows of the boundary,
 /// the work of this load that X does not do; X need not be modes. In an assembly, the parts' own
 /// truncation is added, V^T F V.
-/// Costs two and a half solves with the factor for each boundary coordinate, three more for each
-/// coordinate of an assembly.
-/// Collective. InputError for an assembly with parts whose F is not known, and for one in a team.
+/// Costs two and a half solves with the factor for each boundary coordinate, one and a half more
+/// for each part of an assembly. Collective. InputError for an assembly with parts whose F is not
+/// known, and for one in a team.
 Eigen::MatrixXd truncation(const Reduction& reduction, const sparse::Factor& factor_ii,
                            const PartitionedModel& part);
 

@@ -22,7 +22,8 @@ PencilModes modes_of(const rom::ReducedModel& model);
 /// The elastic ones alone, `rigid` 0: floating frames of reference make the rigid motions.
 PencilModes elastic_modes_of(const rom::ReducedModel& model);
 
-/// alpha K_rr + beta M_rr and the table's M_rr Phi diag(2 zeta omega) Phi^T M_rr.
+/// alpha K_rr + beta M_rr, and M_rr Phi diag(2 zeta omega) Phi^T M_rr of the table of modal damping
+/// and of loss factors.
 Eigen::MatrixXd damping_of(const rom::ReducedModel& model);
 
 }  // namespace clatter::condense

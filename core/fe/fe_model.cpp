@@ -84,6 +84,9 @@ void write_parts(H5File& file, const FeParts& parts) {
 
 FeParts read_parts(const H5File& file, Eigen::Index n, Eigen::Index n_nodes) {
   FeParts parts;
+  if (file.has("parts") && file.has_attribute("parts", "count"))
+    refuse(file, "parts", "reduced parts as an earlier version stored them",
+           "a file that clatter-assembly makes again");
   for (const std::string& name : file.list("parts")) {
     const std::string at = "parts/" + name;
     FePart part{.name = name,

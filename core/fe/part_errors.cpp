@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/log.hpp"
+
 namespace clatter::fe {
 
 Eigen::MatrixXd part_errors(const FeParts& parts, const Eigen::VectorXd& values,
@@ -31,6 +33,13 @@ std::string parts_without_truncation(const FeParts& parts) {
   for (const FePart& part : parts.list)
     if (part.truncation.rows() == 0) names += (names.empty() ? "" : ", ") + part.name;
   return names;
+}
+
+void warn_of_unknown_errors(const FeParts& parts, const std::string& model) {
+  const std::string unknown = parts_without_truncation(parts);
+  if (!unknown.empty())
+    warn(model + ": the error by the modes that " + unknown +
+         " lack is not known: joined_error = true in their rom.toml");
 }
 
 }  // namespace clatter::fe

@@ -21,4 +21,7 @@ Eigen::MatrixXd part_errors(const FeParts& parts, const Eigen::VectorXd& values,
 /// Names of the parts whose truncation is not known, joined by commas; empty when all are.
 std::string parts_without_truncation(const FeParts& parts);
 
+/// Warns of them, with the way out.
+void warn_of_unknown_errors(const FeParts& parts, const std::string& model);
+
 }  // namespace clatter::fe

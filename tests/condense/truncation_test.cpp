@@ -206,6 +206,18 @@ TEST_F(BlockAndPlate, SupportsLeaveTheStatedErrorsTrue) {
   }
 }
 
+/// Without its limits a model of an earlier version would look like one of a mesh.
+TEST_F(CompleteParts, OfAnEarlierVersionAreRefused) {
+  const auto path = test::scratch_path("earlier.fe.h5");
+  H5File file = H5File::create(path);
+  write_provenance(file, {fe::kFeSchema, "", {}});
+  fe::write_fe_model(file, a_);
+  file.set("parts", "count", int64_t{2});
+  file.commit();
+  test::expect_parts(test::refusal_of([&] { (void)fe::read_fe_model(path); }),
+                     {"earlier.fe.h5", "parts", "earlier version", "clatter-assembly makes again"});
+}
+
 TEST_F(CompleteParts, LackNothing) {
   const TwoFiles known{reduced_file("block", a_, stating(complete(a_))),
                        reduced_file("plate", b_, stating(complete(b_)))};
