@@ -73,8 +73,8 @@ FrameChoice choose_frames(const RunClock& clock, const Options& options,
   return {*piece, frame_samples(clock, *piece, {0.0, 0.0, true}, piece->duration_s() / kFrames)};
 }
 
-std::vector<PanelRule> panel_rules(const Options& options) {
-  if (options.panels.empty()) return default_panels();
+std::vector<PanelRule> panel_rules(const Options& options, const rom::Skin& skin) {
+  if (options.panels.empty()) return default_panels(skin);
   std::vector<PanelRule> rules{{.name = "skin"}};
   rules.insert(rules.end(), options.panels.begin(), options.panels.end());
   return rules;
@@ -115,10 +115,21 @@ double share_above_limit(const Analysis& analysis) {
   return all > 0.0 ? std::max(1.0 - skin.mean_square_velocity.sum() / all, 0.0) : 0.0;
 }
 
-FieldCertificate certify(const RunBody& body, const Analysis& analysis,
+/// Closure of the faces of solids: sheets have a border.
+double closure(const rom::Skin& skin, const SkinGeometry& geometry) {
+  if (skin.sheet.empty()) return geometry.closure;
+  IndexMatrix solids(skin.triangles.rows() - static_cast<Eigen::Index>(skin.sheet.size()), 6);
+  Eigen::Index row = 0;
+  for (int32_t face = 0; face < skin.triangles.rows(); ++face)
+    if (!std::binary_search(skin.sheet.begin(), skin.sheet.end(), face))
+      solids.row(row++) = skin.triangles.row(face);
+  return measure_skin(skin.nodes, solids).closure;
+}
+
+FieldCertificate certify(const RunBody& body, const Analysis& analysis, const rom::Skin& faces,
                          const SkinGeometry& geometry, const PanelForm& skin) {
   FieldCertificate certificate{.skin_area_m2 = geometry.area,
-                               .skin_closure = geometry.closure,
+                               .skin_closure = closure(faces, geometry),
                                .run_complete = body.complete() ? 1.0 : 0.0};
   if (!analysis.piece.periodic) return certificate;
   certificate.mean_square_share_above_spectra = share_above_limit(analysis);
@@ -248,9 +259,8 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
   const std::vector<Piece> pieces = choose_pieces(body.clock(), options, origin);
   FrameChoice frames;
   if (options.frames.on) frames = choose_frames(body.clock(), options, origin);
-  summary.panels = with_context(options.origin, [&] {
-    return choose_panels(panel_rules(options), skin.nodes, skin.triangles, geometry, skin.faces);
-  });
+  summary.panels = with_context(
+      options.origin, [&] { return choose_panels(panel_rules(options, skin), skin, geometry); });
   clock.lap("skin and panels");
 
   const std::vector<PanelForm> forms = normal_velocity_forms(skin, T, geometry, summary.panels);
@@ -260,7 +270,7 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
     summary.analyses.push_back(
         analyse(body, piece, options, summary.limit.to_hz, forms, summary.sensors));
   if (pieces.size() == 1) warn_of_lost_motion(body, forms.front(), pieces.front());
-  summary.certificate = certify(body, summary.analyses.front(), geometry, forms.front());
+  summary.certificate = certify(body, summary.analyses.front(), skin, geometry, forms.front());
   clock.lap("spectra and radiated power");
   summary.sounds = radiate(body, model, T, summary, forms);
   if (!options.sound.empty()) clock.lap("radiated sound");

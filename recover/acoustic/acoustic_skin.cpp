@@ -37,7 +37,7 @@ void check_body(const rom::Skin& skin, double size, double opening) {
                     "less than the size of the body, {:.3g} m",
                     opening, size));
   // The wrap would enter through a wider opening and cover both sides of the walls.
-  const SkinBorder border = skin_border(skin.nodes, skin.triangles);
+  const SkinBorder border = skin_border(skin);
   if (border.widest > opening)
     throw InputError(
         fmt::format("acoustic skin: found a skin that is open along {} edges, {:.3g} m wide, "

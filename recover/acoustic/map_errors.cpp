@@ -24,7 +24,7 @@ Rigid rigid_motions(const sound::Surface& acoustic, const Eigen::Vector3d& point
 }  // namespace
 
 MapErrors map_errors(const rom::Skin& skin, const sound::Surface& acoustic, const VelocityMap& map,
-                     const Eigen::VectorXd& flux) {
+                     const ExposedFlux& flux) {
   Eigen::MatrixXd nodal(3 * skin.nodes.rows(), 6);
   for (Eigen::Index n = 0; n < skin.nodes.rows(); ++n)
     nodal.middleRows(3 * n, 3) = rigid_motions(acoustic, skin.nodes.row(n));
@@ -43,8 +43,11 @@ MapErrors map_errors(const rom::Skin& skin, const sound::Surface& acoustic, cons
     difference += acoustic.face_area[c] * (mean - exact).squaredNorm();
     size += acoustic.face_area[c] * exact.squaredNorm();
   }
-  const Eigen::RowVectorXd out = flux.transpose() * nodal;
-  const Eigen::RowVectorXd magnitude = flux.cwiseAbs().transpose() * nodal.cwiseAbs();
+  const Eigen::RowVectorXd out = flux.sum.transpose() * nodal;
+  // A flat sheet has no flux in its plane.
+  constexpr double kLeast = 1e-3;
+  Eigen::RowVectorXd magnitude = flux.amount.transpose() * nodal.cwiseAbs();
+  magnitude = magnitude.cwiseMax(kLeast * magnitude.maxCoeff()).eval();
   return {.flux = (through - out).cwiseAbs().cwiseQuotient(magnitude).maxCoeff(),
           .velocity = size > 0.0 ? std::sqrt(difference / size) : 0.0};
 }

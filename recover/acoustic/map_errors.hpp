@@ -5,10 +5,22 @@
 
 namespace clatter::recover {
 
+/// Flux of the exposed faces for each displacement of a node: the shares of n dS of their points,
+/// times the shape functions.
+struct ExposedFlux {
+  explicit ExposedFlux(Eigen::Index nodes)
+      : sum(Eigen::VectorXd::Zero(3 * nodes)), amount(Eigen::VectorXd::Zero(3 * nodes)) {}
+  void add(int32_t node, const Eigen::Vector3d& share) {
+    sum.segment<3>(3 * node) += share;
+    amount.segment<3>(3 * node) += share.cwiseAbs();
+  }
+
+  Eigen::VectorXd sum;     // 3 n_s [m2]; of the two sides of a sheet in air 0
+  Eigen::VectorXd amount;  // 3 n_s [m2], of the absolute values
+};
+
 /// Measures a map with rigid motions of the body, turns weighed by its size.
-/// @param flux 3 n_s, sum over points: their share of n dS times the shape functions, so that
-///        flux . u is the flux of the exposed faces [m2]
 MapErrors map_errors(const rom::Skin& skin, const sound::Surface& acoustic, const VelocityMap& map,
-                     const Eigen::VectorXd& flux);
+                     const ExposedFlux& flux);
 
 }  // namespace clatter::recover

@@ -16,17 +16,17 @@ namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double, int32_t>>;
 
-/// A point of an exposed face.
+/// A point of an exposed side of a face.
 struct Sample {
   int32_t face;                 // of the body's skin
   Shape6 shape;                 // shape functions there
   Eigen::Vector3d at;           // [m]
-  Eigen::Vector3d area_vector;  // its share of n dS [m2]
+  Eigen::Vector3d area_vector;  // its share of n dS [m2], n off that side
   Landing landing{};
 };
 
-/// Centres of the n^2 parts of a face.
-void add_samples(const rom::Skin& skin, int32_t face, double spacing,
+/// Centres of the n^2 parts of a side of a face: 1 along the normal, -1 against it.
+void add_samples(const rom::Skin& skin, int32_t face, double side, double spacing,
                  std::vector<Sample>& samples) {
   const Coordinates6 x = face_coordinates(skin.nodes, skin.triangles, face);
   const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
@@ -35,7 +35,7 @@ void add_samples(const rom::Skin& skin, int32_t face, double spacing,
     const Shape6 shape = shape_functions(u, v);
     const Eigen::Matrix<double, 3, 2> t = x.transpose() * shape_gradients(u, v);
     samples.push_back(
-        {face, shape, x.transpose() * shape, t.col(0).cross(t.col(1)) / (2.0 * n * n)});
+        {face, shape, x.transpose() * shape, side * t.col(0).cross(t.col(1)) / (2.0 * n * n)});
   };
   for (int i = 0; i < n; ++i)
     for (int j = 0; i + j < n; ++j) {
@@ -44,11 +44,14 @@ void add_samples(const rom::Skin& skin, int32_t face, double spacing,
     }
 }
 
-std::vector<Sample> exposed_samples(const rom::Skin& skin, const std::vector<bool>& exposed,
+std::vector<Sample> exposed_samples(const rom::Skin& skin, const Exposure& exposed,
                                     const sound::Surface& acoustic) {
+  const double spacing = acoustic.mean_edge / 5.0;
   std::vector<Sample> samples;
-  for (int32_t face = 0; face < skin.triangles.rows(); ++face)
-    if (exposed[face]) add_samples(skin, face, acoustic.mean_edge / 5.0, samples);
+  for (int32_t face = 0; face < skin.triangles.rows(); ++face) {
+    if (exposed.front[face]) add_samples(skin, face, 1.0, spacing, samples);
+    if (exposed.of_back(face)) add_samples(skin, face, -1.0, spacing, samples);
+  }
   if (samples.empty())
     throw InputError("acoustic skin: found no exposed face, expected at least one");
   const LandingSearch search(acoustic);
@@ -114,14 +117,14 @@ SparseRows assembled(const rom::Skin& skin, const sound::Surface& acoustic,
 
 }  // namespace
 
-VelocityMap velocity_map(const rom::Skin& skin, const std::vector<bool>& exposed,
+VelocityMap velocity_map(const rom::Skin& skin, const Exposure& exposed,
                          const sound::Surface& acoustic, LidMotion lids) {
   const std::vector<Sample> samples = exposed_samples(skin, exposed, acoustic);
   VelocityMap out;
   find_lids(samples, acoustic, out);
   Triplets entries;
   FlowMapBuilder flow;
-  Eigen::VectorXd flux = Eigen::VectorXd::Zero(3 * skin.nodes.rows());
+  ExposedFlux flux(skin.nodes.rows());
   for (const Sample& sample : samples) {
     const int32_t c = sample.landing.face;
     const bool is_lid = out.covered[c] < 0.5;
@@ -134,7 +137,7 @@ VelocityMap velocity_map(const rom::Skin& skin, const std::vector<bool>& exposed
                (is_lid ? 1.0 / 3.0 : sample.landing.shape[b]) * sample.area_vector);
     }
     for (int a = 0; a < 6; ++a)
-      flux.segment(3 * skin.triangles(sample.face, a), 3) += sample.shape[a] * sample.area_vector;
+      flux.add(skin.triangles(sample.face, a), sample.shape[a] * sample.area_vector);
   }
   out.map = assembled(skin, acoustic, entries);
   out.errors = map_errors(skin, acoustic, out, flux);

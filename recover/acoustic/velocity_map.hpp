@@ -6,6 +6,7 @@
 #include "core/rom/reduced_model.hpp"
 #include "core/sound/surface.hpp"
 #include "recover/acoustic/flow_map.hpp"
+#include "recover/skin/exposure.hpp"
 #include "recover/skin/skin.hpp"
 
 namespace clatter::recover {
@@ -40,9 +41,8 @@ struct VelocityMap {
 };
 
 /// Builds the map; exposed faces are sampled at points a fifth of an acoustic edge apart.
-/// @param exposed per face of the skin, exposed_faces()
 /// @throws InputError when no face is exposed
-VelocityMap velocity_map(const rom::Skin& skin, const std::vector<bool>& exposed,
+VelocityMap velocity_map(const rom::Skin& skin, const Exposure& exposed,
                          const sound::Surface& acoustic, LidMotion lids);
 
 }  // namespace clatter::recover

@@ -2,11 +2,11 @@
 #pragma once
 // Panels: named groups of skin faces, chosen by surface, direction, box and exposure.
 #include <Eigen/Core>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/rom/reduced_model.hpp"
 #include "recover/skin/skin.hpp"
 
 namespace clatter::recover {
@@ -18,7 +18,7 @@ struct PanelRule {
   std::optional<Eigen::Vector3d> direction{};  // outward normal within `angle_deg` of it
   double angle_deg = 45.0;
   std::optional<Eigen::Vector3d> box_min{}, box_max{};  // face centre inside [m]
-  bool exposed = false;  // the ray along the face's normal hits nothing of the body
+  bool exposed = false;  // a side of the face is exposed, whose direction is meant (Exposure)
   bool may_be_empty = false;
 };
 
@@ -30,22 +30,14 @@ struct Panel {
 
 /// "skin" (all faces), "exposed" (without bores, jackets and crankcase walls that face other
 /// walls), and the exposed faces by side: thrust_side (+y), anti_thrust_side (-y), top (+z), bottom
-/// (-z), end_plus_x, end_minus_x. Sides without a face are omitted.
-std::vector<PanelRule> default_panels();
-
-/// For each face, whether the ray from its centre along its outward normal leaves the body freely.
-/// @param nodes n_s x 3 [m]
-std::vector<bool> exposed_faces(const RowMatrix& nodes, const IndexMatrix& triangles,
-                                const SkinGeometry& geometry);
-
-/// Faces of each named surface of the mesh, ascending (rom::Skin::faces).
-using SurfaceFaces = std::map<std::string, std::vector<int32_t>>;
+/// (-z), end_plus_x, end_minus_x. Sides without a face are omitted. Of an assembly also the exposed
+/// faces of each reduced part: "pan" of the surface pan_skin.
+std::vector<PanelRule> default_panels(const rom::Skin& skin);
 
 /// Applies the rules in order. Panels may overlap.
 /// @throws InputError for a rule that selects nothing, an unknown surface or a duplicate name; the
 /// first two list what there is
-std::vector<Panel> choose_panels(const std::vector<PanelRule>& rules, const RowMatrix& nodes,
-                                 const IndexMatrix& triangles, const SkinGeometry& geometry,
-                                 const SurfaceFaces& surfaces = {});
+std::vector<Panel> choose_panels(const std::vector<PanelRule>& rules, const rom::Skin& skin,
+                                 const SkinGeometry& geometry);
 
 }  // namespace clatter::recover

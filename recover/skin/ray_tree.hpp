@@ -3,6 +3,8 @@
 // Ray intersection test by a tree of boxes around flat triangles.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace clatter::recover {
@@ -13,8 +15,12 @@ class RayTree {
  public:
   explicit RayTree(std::vector<Triangle> triangles);
 
-  /// True when the ray origin + t * direction, t > t_min, hits a triangle. Unit `direction`.
-  bool hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double t_min) const;
+  /// Whether a hit counts: the triangle's place in the constructor's list, and t.
+  using Counts = std::function<bool(int32_t triangle, double t)>;
+
+  /// True when the ray origin + t * direction, t > t_min, has a hit that counts. Unit `direction`.
+  bool hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double t_min,
+            const Counts& counts) const;
 
  private:
   struct Box {
@@ -25,6 +31,7 @@ class RayTree {
   int build(int first, int count);
 
   std::vector<Triangle> triangles_;
+  std::vector<int32_t> order_;  // places in triangles_, by leaves
   std::vector<Box> boxes_;
 };
 

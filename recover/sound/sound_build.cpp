@@ -18,7 +18,7 @@
 #include "core/sound/field_points.hpp"
 #include "core/sound/monopole.hpp"
 #include "recover/acoustic/skin_border.hpp"
-#include "recover/skin/panels.hpp"
+#include "recover/skin/exposure.hpp"
 #include "recover/sound/acoustic_velocity.hpp"
 #include "recover/sound/stored_far_field.hpp"
 
@@ -217,7 +217,7 @@ void check_limit(const rom::ReducedModel& model, const SoundOptions& options) {
 
 /// Edges of the skin with one face, with a warning.
 double open_edges(const rom::Skin& skin) {
-  const SkinBorder border = skin_border(skin.nodes, skin.triangles);
+  const SkinBorder border = skin_border(skin);
   if (border.edges > 0)
     warn(
         fmt::format("skin: open along {} edges, up to {:.3g} m wide: closed by the acoustic skin; "
@@ -251,22 +251,10 @@ void place_microphones(const SoundOptions& options, const sound::Surface& skin, 
   }
 }
 
-/// Air moves on both sides of a sheet, of which the boundary elements have one.
-void refuse_sheet(const rom::Skin& skin) {
-  if (skin.sheet.empty()) return;
-  const Eigen::RowVector3d at = skin.nodes.row(skin.triangles(skin.sheet[0], 0));
-  throw InputError(fmt::format(
-      "found {} of {} triangles of the skin on shells, the first at ({:.4f}, {:.4f}, {:.4f}) m, "
-      "expected faces of solids alone: air on both sides of a sheet is not computed; surfaces "
-      "without shells (skin of the rom.toml) are, and the equivalent radiated power of a run",
-      skin.sheet.size(), skin.triangles.rows(), at(0), at(1), at(2)));
-}
-
 }  // namespace
 
 PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options, StepClock& clock,
                      const EarlierSamples& earlier) {
-  refuse_sheet(model.skin);
   check_limit(model, options);
   const sound::Space space = options.space();
   PartSound out;
@@ -276,8 +264,7 @@ PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options
   clock.lap("acoustic skin");
   const SkinGeometry geometry = measure_skin(model.skin.nodes, model.skin.triangles);
   out.map =
-      velocity_map(model.skin, exposed_faces(model.skin.nodes, model.skin.triangles, geometry),
-                   out.skin, options.skin.lids);
+      velocity_map(model.skin, exposure_of(model.skin, geometry), out.skin, options.skin.lids);
   const Eigen::MatrixXd velocity = out.map.map * Eigen::MatrixXd(model.skin.T);
   out.face_velocity = triangle_means(velocity);
   clock.lap("map of normal velocity");

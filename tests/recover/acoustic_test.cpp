@@ -10,7 +10,6 @@
 #include "recover/acoustic/acoustic_skin.hpp"
 #include "recover/acoustic/skin_border.hpp"
 #include "recover/acoustic/velocity_map.hpp"
-#include "recover/skin/panels.hpp"
 #include "synthetic.hpp"
 #include "tests/refusal.hpp"
 
@@ -23,6 +22,10 @@ constexpr double kSpeed = 343.2;
 
 rom::Skin skin_of(const Mesh6& mesh) {
   return {mesh.nodes, mesh.triangles, random_rows(mesh, 2, 1)};
+}
+
+Exposure everywhere(const Mesh6& mesh) {
+  return {std::vector<bool>(static_cast<size_t>(mesh.triangles.rows()), true), {}};
 }
 
 sound::Surface wrap_of(const Mesh6& mesh, double to_hz) {
@@ -55,10 +58,10 @@ TEST(AcousticSkin, BodyWithoutSkinOrSmallerThanTheOpeningIsRefused) {
 
 TEST(AcousticSkin, BorderOfAnOpenSkinIsMeasured) {
   Mesh6 mesh = box({0.4, 0.3, 0.2}, 2);
-  EXPECT_EQ(skin_border(mesh.nodes, mesh.triangles).edges, 0);
+  EXPECT_EQ(skin_border(skin_of(mesh)).edges, 0);
   const IndexMatrix all = mesh.triangles;
   mesh.triangles = all.bottomRows(all.rows() - 2);  // without a square of the side x = 0
-  const SkinBorder border = skin_border(mesh.nodes, mesh.triangles);
+  const SkinBorder border = skin_border(skin_of(mesh));
   EXPECT_EQ(border.edges, 4);
   EXPECT_NEAR(border.widest, 0.15, 1e-12);
   test::expect_parts(
@@ -88,7 +91,7 @@ double flux(const sound::Surface& wrap, const Eigen::VectorXd& v) {
 TEST(VelocityMap, KeepsTheFluxOfASwellingBoxAndOfRigidMotions) {
   const Mesh6 mesh = box({0.4, 0.3, 0.2}, 6);
   const sound::Surface wrap = wrap_of(mesh, 1500.0);
-  const std::vector<bool> all(static_cast<size_t>(mesh.triangles.rows()), true);
+  const Exposure all = everywhere(mesh);
   const VelocityMap map = velocity_map(skin_of(mesh), all, wrap, LidMotion::kRest);
   EXPECT_NEAR(flux(wrap, map.map * swelling(mesh)), 3.0 * 0.024, 1e-14);
   EXPECT_LT(map.errors.flux, 1e-14);
@@ -101,7 +104,7 @@ TEST(VelocityMap, IsExactForASphere) {
   Mesh6 mesh = unit_sphere(3);
   mesh.nodes *= 0.2;
   const sound::Surface wrap = wrap_of(mesh, 2000.0);
-  const std::vector<bool> all(static_cast<size_t>(mesh.triangles.rows()), true);
+  const Exposure all = everywhere(mesh);
   const VelocityMap map = velocity_map(skin_of(mesh), all, wrap, LidMotion::kRest);
   EXPECT_NEAR(flux(wrap, map.map * swelling(mesh)), 4.0 * std::numbers::pi * 0.008, 1e-5);
   EXPECT_LT(map.errors.velocity, 0.05);
@@ -111,7 +114,7 @@ TEST(VelocityMap, APointSourceInsideTheBodySendsItsPowerThroughMapAndBoundaryEle
   // Velocities of p = exp(-i k r) / r at the nodes of a box with sharp edges: P = 2 pi / (rho c).
   const Mesh6 mesh = box({0.4, 0.3, 0.2}, 8);
   const sound::Surface wrap = wrap_of(mesh, 1500.0);
-  const std::vector<bool> all(static_cast<size_t>(mesh.triangles.rows()), true);
+  const Exposure all = everywhere(mesh);
   const VelocityMap map = velocity_map(skin_of(mesh), all, wrap, LidMotion::kRest);
   const sound::Fluid air{1.204, kSpeed};
   const Eigen::Vector3d source =
@@ -155,9 +158,9 @@ TEST(VelocityMap, LidsRestOrMoveWithTheNearestFace) {
   const Mesh6 mesh = box({0.4, 0.3, 0.2}, 6);
   const sound::Surface wrap = wrap_of(mesh, 1500.0);
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
-  std::vector<bool> exposed;  // all but the top
+  Exposure exposed;  // all but the top
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
-    exposed.push_back(geometry.face_normal(f, 2) < 0.9);
+    exposed.front.push_back(geometry.face_normal(f, 2) < 0.9);
   Eigen::VectorXd lift = Eigen::VectorXd::Zero(mesh.nodes.size());
   for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) lift[3 * n + 2] = 1.0;
   const auto mapped = [&](LidMotion motion) {
@@ -170,7 +173,8 @@ TEST(VelocityMap, LidsRestOrMoveWithTheNearestFace) {
   EXPECT_NEAR(flux(wrap, rest.map * lift), -0.12, 1e-14);        // the bottom's alone
   EXPECT_NEAR(flux(wrap, moving.map * lift), 0.0, 0.05 * 0.12);  // the lid's as well
   test::expect_parts(test::refusal_of([&] {
-                       velocity_map(skin_of(mesh), std::vector<bool>(exposed.size(), false), wrap,
+                       velocity_map(skin_of(mesh),
+                                    {std::vector<bool>(exposed.front.size(), false), {}}, wrap,
                                     LidMotion::kRest);
                      }),
                      {"acoustic skin: found no exposed face"});

@@ -32,7 +32,7 @@ TEST(AcousticVelocity, SphereMovesAlongItsNormalsAndKeepsTheFlux) {
   }
   const rom::ReducedModel model = model_on(mesh, RowMatrix(motions), 2000.0);
   const sound::Surface skin = acoustic_skin(model.skin, {0.05, 8.0}, 343.2, 700.0).surface;
-  const std::vector<bool> exposed(static_cast<size_t>(mesh.triangles.rows()), true);
+  const Exposure exposed{std::vector<bool>(static_cast<size_t>(mesh.triangles.rows()), true), {}};
   const VelocityMap map = velocity_map(model.skin, exposed, skin, LidMotion::kRest);
   const Eigen::MatrixXd found = triangle_means(map.map * motions);
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);

@@ -108,7 +108,7 @@ class Orders : public ::testing::Test {
 
   Analysis analyse_piece(const RunBody& body, const Piece& piece) const {
     const SkinGeometry geometry = measure_skin(mesh_.nodes, mesh_.triangles);
-    const auto panels = choose_panels({{.name = "skin"}}, mesh_.nodes, mesh_.triangles, geometry);
+    const auto panels = choose_panels({{.name = "skin"}}, model_.skin, geometry);
     const rom::SkinRows T(T_);
     const auto forms = normal_velocity_forms(model_.skin, T, geometry, panels);
     static const std::vector<Sensor> sensors = find_sensors({}, model_, T, geometry);

@@ -42,7 +42,7 @@ class Averages : public ::testing::Test {
 
   Analysis analyse_window(const RunBody& body, const WindowRule& rule, double to_hz = 1e9) const {
     const SkinGeometry geometry = measure_skin(mesh_.nodes, mesh_.triangles);
-    const auto panels = choose_panels({{.name = "skin"}}, mesh_.nodes, mesh_.triangles, geometry);
+    const auto panels = choose_panels({{.name = "skin"}}, model_.skin, geometry);
     const rom::SkinRows T(T_);
     const auto forms = normal_velocity_forms(model_.skin, T, geometry, panels);
     static const std::vector<Sensor> sensors = find_sensors({}, model_, T, geometry);

@@ -25,7 +25,7 @@ TEST(RadiatedPower, UniformNormalVelocityGivesHalfRhoCSVSquaredExactly) {
   RowMatrix T = RowMatrix::Zero(mesh.nodes.size(), 1);
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a) T(3 * a, 0) = mesh.nodes(a, 0) / 0.1 - 1.0;
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
-  const auto panels = choose_panels(default_panels(), mesh.nodes, mesh.triangles, geometry);
+  const auto panels = choose_panels(default_panels({}), bare_skin(mesh), geometry);
   const auto forms =
       normal_velocity_forms({mesh.nodes, mesh.triangles}, rom::SkinRows(T), geometry, panels);
   const double v = 3e-3, S = 2 * 0.5 * 0.3;
@@ -42,7 +42,7 @@ TEST(RadiatedPower, QuadraticFormEqualsBruteForceExpansion) {
   const int r = 7;
   const rom::Skin skin{mesh.nodes, mesh.triangles, random_rows(mesh, r, 1)};
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
-  const auto panels = choose_panels(default_panels(), mesh.nodes, mesh.triangles, geometry);
+  const auto panels = choose_panels(default_panels({}), bare_skin(mesh), geometry);
   const auto forms = normal_velocity_forms(skin, rom::SkinRows(skin.T), geometry, panels);
   Eigen::MatrixXcd v = test::random_matrix<Eigen::MatrixXcd>(3, r);
   for (size_t p = 0; p < panels.size(); ++p) {
@@ -68,7 +68,7 @@ TEST(RadiatedPower, PanelsThatShareFacesSumAsTheirPartsDo) {
   const Mesh6 mesh = box({1, 1, 1}, 2);
   const rom::Skin skin{mesh.nodes, mesh.triangles, random_rows(mesh, 4, 2)};
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
-  const auto panels = choose_panels(default_panels(), mesh.nodes, mesh.triangles, geometry);
+  const auto panels = choose_panels(default_panels({}), bare_skin(mesh), geometry);
   const auto forms = normal_velocity_forms(skin, rom::SkinRows(skin.T), geometry, panels);
   Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(4, 4);
   for (size_t p = 2; p < forms.size(); ++p) sides += forms[p].W;
@@ -166,9 +166,9 @@ TEST(Order, PulsatingSphereHasItsRadiationEfficiency) {
       T.block(3 * a, 0, 3, 1) = v.real();
       T.block(3 * a, 1, 3, 1) = v.imag();
     }
-    const auto forms = normal_velocity_forms(
-        {mesh.nodes, mesh.triangles}, rom::SkinRows(T), geometry,
-        choose_panels({{.name = "skin"}}, mesh.nodes, mesh.triangles, geometry));
+    const auto forms =
+        normal_velocity_forms({mesh.nodes, mesh.triangles}, rom::SkinRows(T), geometry,
+                              choose_panels({{.name = "skin"}}, bare_skin(mesh), geometry));
     Eigen::MatrixXcd q(1, 2);
     q << 1.0, Complex(0.0, 1.0);
     const Air air{source.density, source.sound_speed, 1.0};

@@ -92,7 +92,7 @@ TEST_F(SkinOnDisk, DamagedRowsAndSurfacesAreRefused) {
 
 TEST_F(SkinOnDisk, FormsOfThePanelsAreTheSameToTheBit) {
   const SkinGeometry geometry = measure_skin(mesh_.nodes, mesh_.triangles);
-  const auto panels = choose_panels(default_panels(), mesh_.nodes, mesh_.triangles, geometry);
+  const auto panels = choose_panels(default_panels({}), bare_skin(mesh_), geometry);
   const rom::Skin skin{mesh_.nodes, mesh_.triangles};
   const auto disk = normal_velocity_forms(skin, on_disk(), geometry, panels);
   const auto memory = normal_velocity_forms(skin, rom::SkinRows(T_), geometry, panels);

@@ -142,7 +142,7 @@ TEST(Panels, DirectionBoxAndExposurePickTheFacesOfAHollowBox) {
   const Mesh6 mesh = hollow_box({0.3, 0.3, 0.3}, 2);
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
   EXPECT_NEAR(geometry.volume, 0.027 - 0.001, 1e-15);
-  const auto panels = choose_panels(default_panels(), mesh.nodes, mesh.triangles, geometry);
+  const auto panels = choose_panels(default_panels({}), bare_skin(mesh), geometry);
   ASSERT_EQ(panels.size(), 8u);  // skin, exposed, six sides
   EXPECT_NEAR(panels[0].area, 6 * (0.09 + 0.01), 1e-14);
   EXPECT_NEAR(panels[1].area, 6 * 0.09, 1e-14);  // walls of the hole face each other
@@ -153,16 +153,17 @@ TEST(Panels, DirectionBoxAndExposurePickTheFacesOfAHollowBox) {
   half.angle_deg = 10.0;
   half.box_min = Eigen::Vector3d(0.0, 0.29, 0.0);
   half.box_max = Eigen::Vector3d(0.15, 0.31, 0.3);
-  EXPECT_NEAR(choose_panels({half}, mesh.nodes, mesh.triangles, geometry)[0].area, 0.045, 1e-15);
+  EXPECT_NEAR(choose_panels({half}, bare_skin(mesh), geometry)[0].area, 0.045, 1e-15);
 }
 
 TEST(Panels, SurfacesOfTheMeshAreJoinedAndCombineWithTheOtherConditions) {
   const Mesh6 mesh = box({1, 2, 3}, 1);
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
   // Sides in the order -x +x -y +y -z +z, two triangles each.
-  const SurfaceFaces surfaces{{"ends", {0, 1, 2, 3}}, {"deck", {10, 11}}, {"half", {2, 4, 10}}};
+  const std::map<std::string, std::vector<int32_t>> surfaces{
+      {"ends", {0, 1, 2, 3}}, {"deck", {10, 11}}, {"half", {2, 4, 10}}};
   const auto choose = [&](const PanelRule& rule) {
-    return choose_panels({rule}, mesh.nodes, mesh.triangles, geometry, surfaces)[0];
+    return choose_panels({rule}, bare_skin(mesh, surfaces), geometry)[0];
   };
   EXPECT_EQ(choose({.name = "p", .surfaces = {"deck"}}).faces, (std::vector<int32_t>{10, 11}));
   const Panel joined = choose({.name = "p", .surfaces = {"half", "ends"}});
@@ -181,11 +182,10 @@ TEST(Panels, SurfacesOfTheMeshAreJoinedAndCombineWithTheOtherConditions) {
       test::refusal_of([&] { choose(narrow); }),
       {"panel 'p': found no face, expected at least one: the skin has 12 faces, lies between "
        "(0, 0, 0) and (1, 2, 3) m, and has the surfaces [deck, ends, half]"});
-  test::expect_parts(test::refusal_of([&] {
-                       choose_panels({{.name = "p", .surfaces = {"deck"}}}, mesh.nodes,
-                                     mesh.triangles, geometry);
-                     }),
-                     {"panel 'p': surfaces: the reduced model has no surfaces by name"});
+  test::expect_parts(
+      test::refusal_of(
+          [&] { choose_panels({{.name = "p", .surfaces = {"deck"}}}, bare_skin(mesh), geometry); }),
+      {"panel 'p': surfaces: the reduced model has no surfaces by name"});
 }
 
 TEST(Panels, RuleWithoutAFaceAndNameTwiceAreRefused) {
@@ -194,12 +194,12 @@ TEST(Panels, RuleWithoutAFaceAndNameTwiceAreRefused) {
   PanelRule nowhere{.name = "nowhere"};
   nowhere.box_min = Eigen::Vector3d(5, 5, 5);
   test::expect_parts(
-      test::refusal_of([&] { choose_panels({nowhere}, mesh.nodes, mesh.triangles, geometry); }),
+      test::refusal_of([&] { choose_panels({nowhere}, bare_skin(mesh), geometry); }),
       {"panel 'nowhere': found no face, expected at least one: the skin has 12 faces, lies between "
        "(0, 0, 0) and (1, 1, 1) m, and has the surfaces []"});
   const PanelRule all{.name = "all"};
   test::expect_parts(test::refusal_of([&] {
-                       choose_panels({all, all}, mesh.nodes, mesh.triangles, geometry);
+                       choose_panels({all, all}, bare_skin(mesh), geometry);
                      }),
                      {"panel 'all': found twice, expected different names"});
 }

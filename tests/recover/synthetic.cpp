@@ -126,6 +126,12 @@ Mesh6 hollow_box(const Eigen::Vector3d& size, int n) {
   return outer;
 }
 
+rom::Skin bare_skin(const Mesh6& mesh, const std::map<std::string, std::vector<int32_t>>& faces) {
+  rom::Skin skin{mesh.nodes, mesh.triangles};
+  skin.faces = faces;
+  return skin;
+}
+
 RowMatrix random_rows(const Mesh6& mesh, int r, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
@@ -155,6 +161,20 @@ rom::ReducedModel model_on(const Mesh6& mesh, const RowMatrix& T, double valid_t
   sensor.is_rotation = {0};
   model.sets["sensor_block"] = sensor;
   return model;
+}
+
+PartSound sound_of_rigid(const rom::Skin& skin, double to_hz) {
+  RowMatrix T = RowMatrix::Zero(skin.nodes.size(), 3);
+  for (Eigen::Index n = 0; n < skin.nodes.rows(); ++n) T.middleRows(3 * n, 3).setIdentity();
+  rom::ReducedModel model = model_on({skin.nodes, skin.triangles}, T, 5000.0);
+  model.skin = skin;
+  model.skin.T = T;
+  SoundOptions options;
+  options.grid.from_hz = 50.0;
+  options.grid.to_hz = to_hz;
+  options.grid.tolerance_db = 2.0;
+  StepClock clock;
+  return part_sound(model, options, clock);
 }
 
 std::filesystem::path write_run(const std::filesystem::path& folder, const rom::ReducedModel& model,

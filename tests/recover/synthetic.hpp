@@ -4,9 +4,12 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "core/rom/reduced_model.hpp"
+#include "recover/sound/sound_build.hpp"
 
 namespace clatter::recover::testing {
 
@@ -26,12 +29,20 @@ Mesh6 box(const Eigen::Vector3d& size, int n);
 /// out of the solid.
 Mesh6 hollow_box(const Eigen::Vector3d& size, int n);
 
+/// The skin of `mesh` without rows T.
+rom::Skin bare_skin(const Mesh6& mesh,
+                    const std::map<std::string, std::vector<int32_t>>& faces = {});
+
 /// A random field of r columns on the skin of `mesh`, seeded.
 RowMatrix random_rows(const Mesh6& mesh, int r, unsigned seed);
 
 /// A reduced model with the given skin, identity mass, one sensor set "sensor_block" (coordinate
 /// 0).
 rom::ReducedModel model_on(const Mesh6& mesh, const RowMatrix& T, double valid_to_hz);
+
+/// The sound of a body that moves along x, y and z without deforming, from 50 Hz; between the
+/// frequencies that are computed within 2 dB.
+PartSound sound_of_rigid(const rom::Skin& skin, double to_hz);
 
 /// Motion of reduced coordinates: displacement, velocity and acceleration at a time.
 struct Motion {
