@@ -172,6 +172,17 @@ std::vector<ShellSection> read_sections(const H5File& file, size_t regions) {
   return sections;
 }
 
+/// Nodes up to the last one of a cell; those of reduced parts come after it.
+Eigen::Index last_of_cells(const mesh::Mesh& mesh) {
+  Eigen::Index count = 0;
+  const auto take = [&](const IndexMatrix& nodes) {
+    if (nodes.size() > 0) count = std::max<Eigen::Index>(count, nodes.maxCoeff() + 1);
+  };
+  for (const mesh::CellBlock& block : mesh.cells) take(block.nodes);
+  for (const mesh::ShellBlock& block : mesh.shells) take(block.nodes);
+  return std::min(count, mesh.nodes.rows());
+}
+
 }  // namespace
 
 void write_cells(H5File& file, const FeCells& cells) {
@@ -191,17 +202,22 @@ FeCells read_cells(const H5File& file, const RowMatrix& nodes) {
   mesh.regions = file.read_strings("regions");
   mesh.cells = mesh::read_cells(file);
   mesh.shells = mesh::read_shells(file);
-  if (file.has("node_ids")) mesh.node_ids = file.read_ints("node_ids");
+  FeCells cells;
+  if (file.has("node_ids")) cells.node_ids = file.read_ints("node_ids");
+  mesh.node_ids = cells.node_ids;
+  if (!file.list("parts").empty()) {
+    mesh.nodes.conservativeResize(last_of_cells(mesh), 3);
+    if (cells.node_ids.size() == static_cast<size_t>(nodes.rows()))
+      mesh.node_ids.resize(static_cast<size_t>(mesh.nodes.rows()));
+  }
   mesh.surfaces["skin"];  // required by the check; surfaces are checked separately
   mesh::check_structure(mesh, file.path().string());
-  FeCells cells;
   for (size_t r = 0; r < mesh.regions.size(); ++r)
     cells.materials.push_back(read_material(file, fmt::format("materials/{}", r)));
   cells.sections = read_sections(file, mesh.regions.size());
   cells.regions = std::move(mesh.regions);
   cells.shells = std::move(mesh.shells);
   cells.blocks = std::move(mesh.cells);
-  cells.node_ids = std::move(mesh.node_ids);
   return cells;
 }
 

@@ -174,6 +174,20 @@ class JoinedParts(unittest.TestCase):
             within = hz <= rom["certificate"].attrs["accurate_to_hz"]
             np.testing.assert_allclose(rom["certificate"].attrs["frequency_error_parts"], stated[within].max(), rtol=0.02)
 
+    def test_a_mesh_beside_a_reduced_part_goes_through_the_stages(self):
+        self.condense("right", 50e3, "frequency_error = 0.0\njoined_error = true\n")
+        (self.folder / "bar.fe.toml").write_text(FE + CUT_SET + '[[part]]\nname = "right"\nfile = "right.rom.h5"\n'
+                                                 '[[tie]]\nslave = "right_cut"\nmaster = "skin"\n')
+        self.stage("assembly", "left.mesh.h5", "-c", "bar.fe.toml", "-o", "bar.fe.h5")
+        self.stage("modal", "bar.fe.h5", "--fmax-hz", 15e3, "-o", "bar.modes.h5", "--export", "bar.vtu")
+        with h5py.File(self.folder / "bar.modes.h5") as modes:
+            hz, stated = modes["frequency_hz"][()], modes["parts/errors"][()].sum(axis=1)
+        true = hz[6:] / self.whole_hz(15.5e3)[6:len(hz)] - 1.0
+        np.testing.assert_array_less(true, 2.0 * stated[6:] + 1e-9)
+        (self.folder / "bar.rom.toml").write_text('boundary = ["cut"]\nfmax_hz = 30000.0\nskin = ["skin"]\n')
+        self.stage("condense", "bar.fe.h5", "-c", "bar.rom.toml", "-o", "bar.rom.h5")
+        self.assertIn("largest", self.stage("modal", "compare", "bar.fe.h5", "bar.rom.h5"))
+
     def test_more_than_the_parts_have_is_refused_and_modes_above_are_said(self):
         self.condense("left", 40e3, "")
         self.condense("right", 20e3, "")
