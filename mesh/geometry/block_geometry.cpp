@@ -217,16 +217,6 @@ Solids liners(GmshSession& s, const BlockParameters& p) {
 
 // --- surfaces ------------------------------------------------------------------------------------
 
-constexpr double kFar = 1e9;
-
-NamedSurface in_plane(const std::string& name, const Vector3d& normal, double height,
-                      const BoxFilter& box) {
-  SurfaceFilter filter;
-  filter.plane = PlaneFilter{normal, height};
-  filter.box = box;
-  return {name, {filter}};
-}
-
 NamedSurface outer_surface(const BlockParameters& p) {
   const double roof = p.roof(), w = p.crankcase_half_width - p.crankcase_wall;
   const double r = p.jacket_radius(), deck = p.deck_height, pan = -p.skirt_depth;
@@ -271,13 +261,12 @@ std::vector<NamedSurface> block_surfaces(const BlockParameters& p) {
                                   {{x - half, -kFar, 0.0}, {x + half, kFar, p.mount_height}}));
     }
   }
-  const BoxFilter anywhere{Vector3d::Constant(-kFar), Vector3d::Constant(kFar)};
-  surfaces.push_back(in_plane("pan_flange", Vector3d::UnitZ(), -p.skirt_depth, anywhere));
+  surfaces.push_back(in_plane("pan_flange", Vector3d::UnitZ(), -p.skirt_depth));
   if (p.timing) {
     const auto timing = timing_surfaces(p);
     surfaces.insert(surfaces.end(), timing.begin(), timing.end());
   } else {
-    surfaces.push_back(in_plane("deck", Vector3d::UnitZ(), p.deck_height, anywhere));
+    surfaces.push_back(in_plane("deck", Vector3d::UnitZ(), p.deck_height));
   }
   surfaces.push_back(outer_surface(p));
   return surfaces;

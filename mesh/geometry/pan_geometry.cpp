@@ -14,12 +14,6 @@ using Eigen::Vector3d;
 
 constexpr double kSlab = 0.1;  // of the depth: what is fused above the flange
 
-NamedSurface level(const std::string& name, double z) {
-  SurfaceFilter filter;
-  filter.plane = PlaneFilter{Vector3d::UnitZ(), z};
-  return {name, {filter}};
-}
-
 /// The pan full of material, with a slab above whose lower face is the flange.
 Solids full_pan(GmshSession& session, const PanParameters& p) {
   const double x = 0.5 * p.length, y = 0.5 * p.width, above = kSlab * p.depth;
@@ -100,8 +94,10 @@ PartGeometry build_pan(GmshSession& session, const PanParameters& p) {
   session.keep_faces(sheet.faces);
   PartGeometry part;
   part.sheet = std::move(sheet);
-  part.surfaces = {level("flange", 0.0), level("bottom", -p.depth)};
-  if (p.sump_depth > 0.0) part.surfaces.push_back(level("sump", -p.sump_depth));
+  part.surfaces = {in_plane("flange", Vector3d::UnitZ(), 0.0),
+                   in_plane("bottom", Vector3d::UnitZ(), -p.depth)};
+  if (p.sump_depth > 0.0)
+    part.surfaces.push_back(in_plane("sump", Vector3d::UnitZ(), -p.sump_depth));
   return part;
 }
 

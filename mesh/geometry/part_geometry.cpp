@@ -7,6 +7,14 @@
 
 namespace clatter::mesh {
 
+NamedSurface in_plane(const std::string& name, const Eigen::Vector3d& normal, double height,
+                      const BoxFilter& box) {
+  SurfaceFilter filter;
+  filter.plane = PlaneFilter{normal, height};
+  filter.box = box;
+  return {name, {filter}};
+}
+
 Solid require_one(const Solids& solids, const std::string& what) {
   if (solids.size() != 1) {
     throw NumericsError(fmt::format("{}: found {} separate solids, expected one connected solid",

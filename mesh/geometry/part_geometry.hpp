@@ -54,6 +54,14 @@ struct PartGeometry {
   std::vector<NamedSurface> edges = {};  // of a sheet: node sets on the edges of its faces
 };
 
+/// A coordinate that no part reaches, for boxes that are open to one side.
+inline constexpr double kFar = 1e9;
+
+/// The faces in the plane normal . x = height, as far as they lie in a box.
+NamedSurface in_plane(const std::string& name, const Eigen::Vector3d& normal, double height,
+                      const BoxFilter& box = {Eigen::Vector3d::Constant(-kFar),
+                                              Eigen::Vector3d::Constant(kFar)});
+
 /// The only solid of a list; NumericsError for more: a boolean of connected shapes has failed.
 Solid require_one(const Solids& solids, const std::string& what);
 

@@ -6,6 +6,7 @@ namespace {
 
 PartGeometry build_kind(GmshSession& session, const PartShape& shape) {
   if (shape.kind == "block") return build_block(session, shape.block);
+  if (shape.kind == "head") return build_head(session, shape.head);
   if (shape.kind == "piston") return build_piston(session, shape.piston);
   if (shape.kind == "rod") return build_rod(session, shape.rod);
   if (shape.kind == "box") return build_box(session, shape.box);
@@ -20,9 +21,10 @@ PartGeometry build_kind(GmshSession& session, const PartShape& shape) {
 const keys::Keys<PartShape>& shape_keys() {
   static const keys::Keys<PartShape> keys(
       "shape", "a part's geometry", [](auto& key, PartShape& s) {
-        key.choice("kind", s.kind,
-                   {"block", "piston", "rod", "box", "cylinder", "pan", "cad", "sheet", "deck"},
-                   "what the part is; the table of this name has its dimensions or its file")
+        key.choice(
+               "kind", s.kind,
+               {"block", "head", "piston", "rod", "box", "cylinder", "pan", "cad", "sheet", "deck"},
+               "what the part is; the table of this name has its dimensions or its file")
             .required();
         key.choice("length_unit", s.unit.name, {"mm", "m", "cm", "in"},
                    "unit of the lengths of this file that name none");
@@ -30,6 +32,7 @@ const keys::Keys<PartShape>& shape_keys() {
           key.table(name, at, keys_of).needs("kind", name).required_with("kind", name);
         };
         table("block", s.block, block_keys());
+        table("head", s.head, head_keys());
         table("piston", s.piston, piston_keys());
         table("rod", s.rod, rod_keys());
         table("box", s.box, box_part_keys());

@@ -6,6 +6,7 @@
 
 #include "mesh/geometry/block_geometry.hpp"
 #include "mesh/geometry/cad_geometry.hpp"
+#include "mesh/geometry/head_geometry.hpp"
 #include "mesh/geometry/pan_geometry.hpp"
 #include "mesh/geometry/piston_geometry.hpp"
 #include "mesh/geometry/primitive_geometry.hpp"
@@ -25,6 +26,7 @@ struct PartShape {
   std::string kind;
   LengthUnit unit;
   BlockParameters block;
+  HeadParameters head;
   PistonParameters piston;
   RodParameters rod;
   BoxParameters box;

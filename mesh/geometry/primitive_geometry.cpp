@@ -10,12 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-NamedSurface plane_surface(const std::string& name, const Vector3d& normal, double height) {
-  SurfaceFilter filter;
-  filter.plane = PlaneFilter{normal, height};
-  return {name, {filter}};
-}
-
 NamedSurface cylinder_surface(const std::string& name, double radius) {
   SurfaceFilter filter;
   filter.cylinder = CylinderFilter{radius, Vector3d::Zero(), Vector3d::UnitZ()};
@@ -58,8 +52,8 @@ PartGeometry build_box(GmshSession& session, const BoxParameters& p) {
   part.regions.push_back({p.region, {session.box(min, max)}});
   const std::array<std::string, 3> letters = {"x", "y", "z"};
   for (int d = 0; d < 3; ++d) {
-    part.surfaces.push_back(plane_surface(letters[d] + "_min", Vector3d::Unit(d), min[d]));
-    part.surfaces.push_back(plane_surface(letters[d] + "_max", Vector3d::Unit(d), max[d]));
+    part.surfaces.push_back(in_plane(letters[d] + "_min", Vector3d::Unit(d), min[d]));
+    part.surfaces.push_back(in_plane(letters[d] + "_max", Vector3d::Unit(d), max[d]));
   }
   return part;
 }
@@ -69,9 +63,8 @@ PartGeometry build_cylinder(GmshSession& session, const CylinderParameters& p) {
   const Vector3d axis(0.0, 0.0, length);
   Solids solids = {session.cylinder(Vector3d::Zero(), axis, radius)};
   PartGeometry part;
-  part.surfaces = {plane_surface("bottom", Vector3d::UnitZ(), 0.0),
-                   plane_surface("top", Vector3d::UnitZ(), length),
-                   cylinder_surface("outer", radius)};
+  part.surfaces = {in_plane("bottom", Vector3d::UnitZ(), 0.0),
+                   in_plane("top", Vector3d::UnitZ(), length), cylinder_surface("outer", radius)};
   if (inner > 0.0) {
     solids = session.cut(solids, {session.cylinder(Vector3d::Zero(), axis, inner)});
     part.surfaces.push_back(cylinder_surface("inner", inner));

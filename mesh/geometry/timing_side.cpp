@@ -14,8 +14,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kUnbounded = 1e9;
-
 // --- reading -------------------------------------------------------------------------------------
 
 // A round or rectangular area of the front face that one part occupies.
@@ -123,15 +121,6 @@ Solid along_x(GmshSession& s, const Vector2d& at, Interval x, double diameter) {
 std::array<Interval, 2> before_bearings(const BlockParameters& p, double length) {
   const double bearing = -p.x_of_bearing(0) + 0.5 * length, end = p.half_length() + 1.0;
   return {{{-end, -bearing}, {bearing, end}}};
-}
-
-// --- surfaces ------------------------------------------------------------------------------------
-
-NamedSurface facing_front(const std::string& name, double x, const BoxFilter& box) {
-  SurfaceFilter filter;
-  filter.plane = PlaneFilter{-Vector3d::UnitX(), -x};
-  filter.box = box;
-  return {name, {filter}};
 }
 
 }  // namespace
@@ -257,8 +246,7 @@ std::vector<NamedSurface> timing_surfaces(const BlockParameters& p) {
       SurfaceFilter bearing;
       bearing.cylinder =
           CylinderFilter{0.5 * t.cam_bore, from_front_view(cam, 0.0), Vector3d::UnitX()};
-      bearing.box =
-          BoxFilter{{x - half, -kUnbounded, -kUnbounded}, {x + half, kUnbounded, kUnbounded}};
+      bearing.box = BoxFilter{{x - half, -kFar, -kFar}, {x + half, kFar, kFar}};
       surfaces.push_back({fmt::format("{}_{}", name, k + 1), {bearing}});
     }
   }
@@ -266,19 +254,19 @@ std::vector<NamedSurface> timing_surfaces(const BlockParameters& p) {
   for (const Seat& seat : seats(t)) {
     const Vector3d centre = from_front_view(seat.centre, front - t.boss_length);
     const Vector3d half(1.0, seat.half_width, seat.half_height);
-    surfaces.push_back(facing_front(seat.key, centre.x(), {centre - half, centre + half}));
+    surfaces.push_back(
+        in_plane(seat.key, Vector3d::UnitX(), centre.x(), {centre - half, centre + half}));
   }
-  surfaces.push_back(facing_front(
-      "timing_face", front, {Vector3d::Constant(-kUnbounded), Vector3d::Constant(kUnbounded)}));
+  surfaces.push_back(in_plane("timing_face", Vector3d::UnitX(), front));
   return surfaces;
 }
 
 std::vector<BoxFilter> under_timing_covers(const BlockParameters& p) {
   const TimingSide& t = *p.timing;
   const double y = t.head_half_width - t.head_wall;
-  return {{{-kUnbounded, -kUnbounded, -kUnbounded}, {-p.half_length(), kUnbounded, kUnbounded}},
-          {{-kUnbounded, -y, p.deck_height}, {kUnbounded, y, kUnbounded}},
-          {{-kUnbounded, -kUnbounded, t.head_top()}, {kUnbounded, kUnbounded, kUnbounded}}};
+  return {{{-kFar, -kFar, -kFar}, {-p.half_length(), kFar, kFar}},
+          {{-kFar, -y, p.deck_height}, {kFar, y, kFar}},
+          {{-kFar, -kFar, t.head_top()}, {kFar, kFar, kFar}}};
 }
 
 }  // namespace clatter::mesh

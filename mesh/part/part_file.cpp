@@ -78,7 +78,8 @@ const keys::Keys<PartFile>& part_keys() {
             .needs("kind", "deck")
             .required_with("kind", "deck");
         key.table("mesh", part.mesh, settings_keys())
-            .needs("kind", {"block", "piston", "rod", "box", "cylinder", "pan", "cad", "sheet"},
+            .needs("kind",
+                   {"block", "head", "piston", "rod", "box", "cylinder", "pan", "cad", "sheet"},
                    "a deck has its own cells");
       });
   return keys;
