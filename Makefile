@@ -8,6 +8,7 @@
 #   make docs       the site in build/docs           make lint      format, workflows, self-contained headers; make tidy: clang-tidy
 #   make keys-pages docs/keys/*.md, the keys of each TOML file; make help-pages: man pages and the completion of bash, from --help
 #   make study      what accuracy costs, of beam, slap and timing drive; make study-paper, study-parameters   figures and influences of the slap
+#   make whole      the slap in the whole truck diesel: block, head, oil pan and covers, and what each radiates
 #   make deb        a Debian package in build/, for x86-64 processors of two generations
 JOBS ?= $(shell nproc)
 PRESET ?= release
@@ -27,9 +28,9 @@ export ASAN_OPTIONS := alloc_dealloc_mismatch=0:detect_stack_use_after_return=0
 endif
 
 .NOTPARALLEL:
-.PHONY: help setup setup-mpi setup-demo setup-check setup-validate configure build build-mpi build-tests demo study study-paper study-parameters check hard check-mpi validate sanitize format lint docs keys-pages help-pages deb levels install tidy workflows clean
+.PHONY: help setup setup-mpi setup-demo setup-check setup-validate configure build build-mpi build-tests demo whole study study-paper study-parameters check hard check-mpi validate sanitize format lint docs keys-pages help-pages deb levels install tidy workflows clean
 help:
-	@sed -n 's/^# \{0,1\}//;2,11p' Makefile
+	@sed -n 's/^# \{0,1\}//;2,12p' Makefile
 
 setup: ; @tools/setup build
 setup-mpi: ; @tools/setup build mpi
@@ -53,6 +54,9 @@ demo: setup-demo build
 	@$(MAKE) --no-print-directory -C samples/truck_diesel CLATTER_BIN=$(BIN) -j$(JOBS)
 	@tools/clatter report samples/truck_diesel
 	@tools/clatter report --html samples/truck_diesel
+
+whole: setup-demo build
+	@$(MAKE) --no-print-directory -C samples/truck_diesel CLATTER_BIN=$(BIN) whole
 
 # Errors and seconds over settings of three samples; half an hour, taken up where it was interrupted.
 study: setup-demo build
