@@ -23,8 +23,9 @@ size_t OpenFaces::find(const Corners& corners) const {
 void OpenFaces::close(CellType type, std::span<const int32_t> nodes) {
   if (!is_sorted_) {
     std::ranges::sort(faces_, {}, &Face::corners);
-    const auto rest = std::ranges::unique(faces_, {}, &Face::corners);
-    faces_.erase(rest.begin(), rest.end());
+    // clang 14, by which the readers are fuzzed, cannot compile std::ranges::unique.
+    const auto same = [](const Face& a, const Face& b) { return a.corners == b.corners; };
+    faces_.erase(std::unique(faces_.begin(), faces_.end(), same), faces_.end());
     is_sorted_ = true;
   }
   const auto mark = [&](std::span<const int32_t> corners) {
