@@ -133,6 +133,9 @@ TEST(NastranMatrices, DmigIsWhatCaseControlChooses) {
   EXPECT_THAT(refusal("CEND\nM2GG = MB\nBEGIN BULK\n" + bulk), HasSubstr("found no DMIG"));
   EXPECT_THAT(refusal("CEND\nK2GG = KB\nBEGIN BULK\n" + kTet + "DMIG,KB,0,6,3,0\n"),
               HasSubstr("found complex numbers"));
+  // A header alone is a matrix of zeros.
+  EXPECT_TRUE(
+      read_deck("CEND\nK2GG = KB\nBEGIN BULK\n" + kTet + "DMIG,KB,0,6,1,0\n").matrices.empty());
 }
 
 TEST(NastranMatrices, Conm1IsAMassOrAMatrix) {
