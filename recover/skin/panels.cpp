@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 #include <set>
-#include <string_view>
 
 #include "core/base/error.hpp"
 #include "core/base/named.hpp"
@@ -67,16 +66,6 @@ std::vector<bool> on_surfaces(const PanelRule& rule, const rom::Skin& skin) {
       high[0], high[1], high[2], fmt::join(names, ", ")));
 }
 
-/// Names of reduced parts, by the surfaces that the assembly makes of their skins.
-std::vector<std::string> parts_of(const rom::Skin& skin) {
-  static constexpr std::string_view kEnding = "_skin";
-  std::vector<std::string> parts;
-  for (const auto& [name, faces] : skin.faces)
-    if (name.size() > kEnding.size() && name.ends_with(kEnding))
-      parts.push_back(name.substr(0, name.size() - kEnding.size()));
-  return parts;
-}
-
 }  // namespace
 
 std::vector<PanelRule> default_panels(const rom::Skin& skin) {
@@ -93,9 +82,9 @@ std::vector<PanelRule> default_panels(const rom::Skin& skin) {
   side("bottom", 0, 0, -1);
   side("end_plus_x", 1, 0, 0);
   side("end_minus_x", -1, 0, 0);
-  for (const std::string& part : parts_of(skin))
-    rules.push_back(
-        {.name = part, .surfaces = {part + "_skin"}, .exposed = true, .may_be_empty = true});
+  for (const auto& [name, faces] : skin.faces)
+    if (name.ends_with("_skin"))
+      rules.push_back({.name = name, .surfaces = {name}, .exposed = true, .may_be_empty = true});
   return rules;
 }
 

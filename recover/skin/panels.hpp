@@ -31,7 +31,7 @@ struct Panel {
 /// "skin" (all faces), "exposed" (without bores, jackets and crankcase walls that face other
 /// walls), and the exposed faces by side: thrust_side (+y), anti_thrust_side (-y), top (+z), bottom
 /// (-z), end_plus_x, end_minus_x. Sides without a face are omitted. Of an assembly also the exposed
-/// faces of each reduced part: "pan" of the surface pan_skin.
+/// faces of the surface pan_skin of each reduced part.
 std::vector<PanelRule> default_panels(const rom::Skin& skin);
 
 /// Applies the rules in order. Panels may overlap.

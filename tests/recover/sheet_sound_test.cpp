@@ -94,7 +94,7 @@ TEST(HardN22_Sheets, FacesThatTouchAPartAreNotExposedHoweverThinItIs) {
     }
     const auto panels =
         choose_panels(default_panels(skin), skin, measure_skin(skin.nodes, skin.triangles));
-    EXPECT_EQ(panels.back().name, "pan");
+    EXPECT_EQ(panels.back().name, "pan_skin");
     EXPECT_NEAR(panels.back().area, size.x() * size.y(), 1e-12);
     double exposed = 0.0;
     for (const Panel& panel : panels)
