@@ -158,9 +158,9 @@ void export_results(const Path& results, const Path& cells, const std::vector<Pa
   const std::string schema =
       file.has_attribute("/", "schema") ? file.get_string("/", "schema") : "no schema";
   const bool modes = schema == kModesSchema;
-  if (!modes && schema != kStaticSchema)
+  if (!modes && schema != fe::kStaticSchema)
     throw InputError(fmt::format("{}: schema: found {}, expected results ({} or {})",
-                                 results.string(), schema, kModesSchema, kStaticSchema));
+                                 results.string(), schema, kModesSchema, fe::kStaticSchema));
   mesh::Mesh drawn = drawn_mesh(file, cells);
   const Results all = modes ? modes_of(file) : cases_of(file);
   for (const Path& path : exports)

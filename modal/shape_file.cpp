@@ -62,7 +62,7 @@ CylinderAxes axes_on(const H5File& file, const RowMatrix& nodes, const mesh::Sur
 }  // namespace
 
 Shape shape_from_file(const std::filesystem::path& path, const ShapeOptions& given) {
-  const H5File file = open_artefact(path, kStaticSchema);
+  const H5File file = open_artefact(path, fe::kStaticSchema);
   ShapeOptions options = given;
   const RowMatrix nodes = file.read_rows("nodes");
   const auto surfaces = mesh::read_surfaces(file, nodes.rows(), path.string());

@@ -39,6 +39,7 @@ void write_static(H5File& file, const fe::FeModel& model, const StaticSolution& 
     file.write("points/position", model.points.position);
   }
   rom::write_dof_sets(file, {}, model.grids);
+  fe::write_gasket_points(file, model.gaskets);
   double backward = 0.0, forward = 0.0, balance = 0.0;
   for (const StaticCase& one : solution.cases) {
     const std::string group = "cases/" + one.name + "/";
@@ -53,6 +54,8 @@ void write_static(H5File& file, const fe::FeModel& model, const StaticSolution& 
     }
     file.write(group + "applied", one.applied);
     write_stress(file, one);
+    for (size_t g = 0; g < one.gaskets.size(); ++g)
+      fe::write_gasket_state(file, one.name, model.gaskets[g].name, one.gaskets[g]);
     file.set("cases/" + one.name, "energy", one.energy);
     file.set("cases/" + one.name, "backward_error", one.backward_error);
     file.set("cases/" + one.name, "forward_error", one.forward_error);

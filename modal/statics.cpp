@@ -7,14 +7,14 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
-#include <numeric>
 
 #include "core/base/error.hpp"
 #include "core/fe/free_motions.hpp"
 #include "core/fe/shell_stress.hpp"
-#include "core/modes/factor_failure.hpp"
 #include "modal/certificates.hpp"
+#include "modal/gasket_statics.hpp"
 #include "modal/refined_solve.hpp"
+#include "modal/static_factor.hpp"
 
 namespace clatter::modal {
 namespace {
@@ -43,7 +43,9 @@ Factors factors_of(const fe::FeModel& model, const std::string& name) {
 
 std::vector<std::string> all_names(const fe::FeModel& model) {
   std::vector<std::string> names;
-  for (const auto& entry : model.loads) names.push_back(entry.first);
+  // Single loads need not press a gasket that opens.
+  if (model.gaskets.empty() || model.cases.empty())
+    for (const auto& entry : model.loads) names.push_back(entry.first);
   for (const auto& entry : model.cases) names.push_back(entry.first);
   if (names.empty())
     throw InputError(fmt::format("{}: found no load, expected a [[load]]", model.name));
@@ -142,9 +144,15 @@ double rounding_of(const fe::FeModel& model, const Eigen::VectorXd& q, const Eig
   return kRounding * sum.norm();
 }
 
+/// What gaskets with curves add to the forces and the energy by K.
+struct Beyond {
+  Eigen::VectorXd on_s;  // n_s [N]; empty: nothing
+  double energy = 0.0;   // [J]
+};
+
 StaticCase recover(const fe::FeModel& model, const Eigen::VectorXd& q, const Eigen::VectorXd& f,
                    const Eigen::VectorXd& f_s, const Eigen::VectorXd& s,
-                   const Eigen::VectorXd& balanced) {
+                   const Eigen::VectorXd& balanced, const Beyond& beyond = {}) {
   StaticCase out;
   double size = f.lpNorm<1>();  // sum of force magnitudes
   const fe::FeSupports& supports = model.supports;
@@ -153,7 +161,7 @@ StaticCase recover(const fe::FeModel& model, const Eigen::VectorXd& q, const Eig
   if (!model.points.names.empty()) out.points = model.points.T * q;
   if (!model.rotations.nodes.empty()) out.rotation = model.rotations.T * q;
   out.applied = model.rigid.transpose() * f;
-  out.energy = 0.5 * q.dot(elastic);
+  out.energy = 0.5 * q.dot(elastic) + beyond.energy;
   out.reactions = Eigen::VectorXd::Zero(supports.size());
   out.support_sums = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(supports.names.size()), 6);
   if (supports.size() > 0) {
@@ -166,6 +174,7 @@ StaticCase recover(const fe::FeModel& model, const Eigen::VectorXd& q, const Eig
     out.energy += q.dot(on_q) + 0.5 * s.dot(on_s);
     const Eigen::VectorXd by_q = supports.K_sq * q;
     out.reactions = by_q + on_s - f_s;
+    if (beyond.on_s.size() > 0) out.reactions += beyond.on_s;
     size += by_q.lpNorm<1>() + on_s.lpNorm<1>() + f_s.lpNorm<1>();
     for (Eigen::Index k = 0; k < supports.size(); ++k)
       out.support_sums.row(supports.support[k]) += out.reactions(k) * supports.rigid.row(k);
@@ -176,21 +185,6 @@ StaticCase recover(const fe::FeModel& model, const Eigen::VectorXd& q, const Eig
   out.balance = ratio(sum.norm(), size);
   if (out.balance > kBalance) out.balance_rounding = ratio(rounding_of(model, q, s), size);
   return out;
-}
-
-/// Thin walls have condition numbers above 1e11 and are still solved: the limits of the factor are
-/// off, and the errors of the solution are checked instead.
-sparse::SupernodalFactor factor_of(const fe::FeModel& model) {
-  sparse::FactorOptions options;
-  options.min_rcond = 0.0;
-  options.max_condition = 1e15;
-  try {
-    return sparse::SupernodalFactor(model.K, options);
-  } catch (const sparse::NotPositiveDefinite& error) {
-    std::vector<int32_t> all(static_cast<size_t>(model.size()));
-    std::iota(all.begin(), all.end(), 0);
-    throw modes::explained(model, "K", all, error);
-  }
 }
 
 std::vector<fe::RegionStress> stresses_of(const fe::FeModel& model, const StaticCase& solved) {
@@ -220,24 +214,69 @@ void refuse_inexact(const fe::FeModel& model, const StaticCase& found) {
                     model.name, found.name, found.forward_error, kForward));
 }
 
+/// Completes a case that is solved.
+StaticCase finished(const fe::FeModel& model, StaticCase found, const std::string& name,
+                    double backward, double forward) {
+  found.name = name;
+  found.loads = factors_of(model, name);
+  found.backward_error = backward;
+  found.forward_error = forward;
+  refuse_inexact(model, found);
+  found.temperature_rise = temperature_rise(model, found.loads);
+  found.stress = stresses_of(model, found);
+  return found;
+}
+
 /// Supports hold every DoF: displacements are the prescribed ones, and the reactions are K_ss s -
 /// f_s.
 StaticSolution solve_held(const fe::FeModel& model, const std::vector<std::string>& names,
                           const RightSides& sides) {
+  if (!model.gaskets.empty())
+    throw InputError(fmt::format(
+        "{}: found supports that hold every DoF beside the gasket {} with a curve, expected a free "
+        "side of it",
+        model.name, model.gaskets[0].name));
   const Eigen::VectorXd balanced = balanced_motions(model);
   StaticSolution solution;
   for (size_t c = 0; c < names.size(); ++c) {
     const auto col = static_cast<Eigen::Index>(c);
-    StaticCase found = recover(model, Eigen::VectorXd(0), Eigen::VectorXd(0), sides.f_s.col(col),
-                               sides.s.col(col), balanced);
-    found.name = names[c];
-    found.loads = factors_of(model, names[c]);
-    refuse_inexact(model, found);
-    found.temperature_rise = temperature_rise(model, found.loads);
-    found.stress = stresses_of(model, found);
+    solution.cases.push_back(finished(model,
+                                      recover(model, Eigen::VectorXd(0), Eigen::VectorXd(0),
+                                              sides.f_s.col(col), sides.s.col(col), balanced),
+                                      names[c], 0.0, 0.0));
+  }
+  return solution;
+}
+
+/// Each case on its own: what is pressed depends on it.
+StaticSolution solve_with_curves(const fe::FeModel& model, const std::vector<std::string>& names,
+                                 const RightSides& sides, const Eigen::MatrixXd& driven) {
+  const Eigen::VectorXd balanced = balanced_motions(model);
+  StaticSolution solution;
+  for (size_t c = 0; c < names.size(); ++c) {
+    const auto col = static_cast<Eigen::Index>(c);
+    const Eigen::VectorXd f = driven.col(col), s = sides.s.col(col);
+    PressedSolution pressed = solve_pressed(model, f, s, model.name + ": " + names[c]);
+    solution.factor = pressed.factor;
+    StaticCase found =
+        finished(model,
+                 recover(model, pressed.solved.x.col(0), sides.f.col(col), sides.f_s.col(col), s,
+                         balanced, {pressed.on_s, pressed.energy}),
+                 names[c], pressed.solved.backward[0], pressed.solved.forward[0]);
+    found.gaskets = std::move(pressed.gaskets);
+    found.steps = pressed.steps;
     solution.cases.push_back(std::move(found));
   }
   return solution;
+}
+
+std::string describe_gasket(const fe::FeGasket& gasket, const fe::GasketState& state, int steps) {
+  const GasketSums sums = sums_of(gasket, state);
+  std::string text = fmt::format(
+      "  {}: pressed on {:.1f} % of {:.4g} m2, force {:.6g} N, highest pressure {:.4g} MPa",
+      gasket.name, 100.0 * sums.pressed / sums.area, sums.area, sums.force, 1e-6 * sums.highest);
+  if (sums.opening > 0.0) text += fmt::format(", opens by up to {:.3g} um", 1e6 * sums.opening);
+  return text + fmt::format(" ({} steps)", steps);
 }
 
 }  // namespace
@@ -247,9 +286,10 @@ StaticSolution solve_static(const fe::FeModel& model, const std::vector<std::str
   const RightSides sides = right_sides(model, names);
   if (model.size() == 0) return solve_held(model, names, sides);
   refuse_free_body(model);
-  const sparse::SupernodalFactor factor = factor_of(model);
   Eigen::MatrixXd driven = sides.f;
   if (model.supports.size() > 0) driven -= model.supports.K_sq.transpose() * sides.s;
+  if (!model.gaskets.empty()) return solve_with_curves(model, names, sides, driven);
+  const sparse::SupernodalFactor factor = explained_factor(model, model.K);
   const RefinedSolution solved = solve_refined(factor, model.K, driven);
 
   StaticSolution solution;
@@ -257,16 +297,10 @@ StaticSolution solve_static(const fe::FeModel& model, const std::vector<std::str
   const Eigen::VectorXd balanced = balanced_motions(model);
   for (size_t c = 0; c < names.size(); ++c) {
     const auto col = static_cast<Eigen::Index>(c);
-    StaticCase found = recover(model, solved.x.col(col), sides.f.col(col), sides.f_s.col(col),
-                               sides.s.col(col), balanced);
-    found.name = names[c];
-    found.loads = factors_of(model, names[c]);
-    found.backward_error = solved.backward[col];
-    found.forward_error = solved.forward[col];
-    refuse_inexact(model, found);
-    found.temperature_rise = temperature_rise(model, found.loads);
-    found.stress = stresses_of(model, found);
-    solution.cases.push_back(std::move(found));
+    solution.cases.push_back(finished(model,
+                                      recover(model, solved.x.col(col), sides.f.col(col),
+                                              sides.f_s.col(col), sides.s.col(col), balanced),
+                                      names[c], solved.backward[col], solved.forward[col]));
   }
   return solution;
 }
@@ -291,6 +325,8 @@ std::vector<std::string> describe(const fe::FeModel& model, const StaticSolution
         one.name, most, largest.x(), largest.y(), largest.z(), one.energy, one.backward_error,
         one.forward_error, one.balance));
     if (!one.stress.empty()) lines.push_back(describe_largest_stress(model, one));
+    for (size_t g = 0; g < one.gaskets.size(); ++g)
+      lines.push_back(describe_gasket(model.gaskets[g], one.gaskets[g], one.steps));
     for (Eigen::Index s = 0; s < one.support_sums.rows(); ++s)
       lines.push_back(
           fmt::format("  {}: force ({:.6g}, {:.6g}, {:.6g}) N, moment about the origin "

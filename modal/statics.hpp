@@ -12,8 +12,6 @@
 
 namespace clatter::modal {
 
-inline constexpr const char* kStaticSchema = "clatter/static/1";
-
 /// Solution of one load case.
 struct StaticCase {
   std::string name;
@@ -32,6 +30,8 @@ struct StaticCase {
                          // half the part's diagonal
   double balance_rounding = 0.0;         // part explained by rounding, where it is above 1e-8
   std::vector<fe::RegionStress> stress;  // one per region, two of shells; none without cells
+  std::vector<fe::GasketState> gaskets;  // of each gasket with a curve
+  int steps = 0;                         // to find what is pressed; 0 without such gaskets
 };
 
 struct StaticSolution {
@@ -39,12 +39,14 @@ struct StaticSolution {
   sparse::FactorReport factor;
 };
 
-/// Solves K q + K_sq^T s = f for the loads and cases named in `wanted`, or for all, with
+/// Solves K q + K_sq^T s = f for the loads and cases named in `wanted`, or for all (beside gaskets
+/// with curves for the cases), with
 ///   u = T q + T_s s,   reactions = K_sq q + K_ss s - f_s,
-/// and stresses from u (core/fe/stress.hpp). One factorisation serves all. InputError for an
-/// unknown name, a model without loads, and a part with free rigid-body motions (they are named);
-/// NumericsError when the stiffness is singular otherwise, when the backward error exceeds 1e-12,
-/// the balance exceeds 1e-8 and the rounding level, or the estimated error of q exceeds 1.
+/// and stresses from u (core/fe/stress.hpp). One factorisation serves all; with gaskets that have
+/// curves each case takes some (gasket_statics.hpp). InputError for an unknown name, a model
+/// without loads, and a part with free rigid-body motions (they are named); NumericsError when the
+/// stiffness is singular otherwise, when the backward error exceeds 1e-12, the balance exceeds 1e-8
+/// and the rounding level, or the estimated error of q exceeds 1.
 StaticSolution solve_static(const fe::FeModel& model, const std::vector<std::string>& wanted);
 
 /// Stresses at the nodes of one region and case.

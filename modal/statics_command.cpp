@@ -31,7 +31,7 @@ void compute_statics(const StaticsArguments& a, const CommonOptions& common) {
     for (const StaticCase& solved : solution.cases)
       for (const std::string& line : describe_stress(model, solved, node)) print_result(line);
 
-  write_artefact(a.output, {kStaticSchema, "", {a.model}}, clock, common,
+  write_artefact(a.output, {fe::kStaticSchema, "", {a.model}}, clock, common,
                  [&](H5File& file) { write_static(file, model, solution); });
   export_results(a.output, model.cells.regions.empty() ? std::filesystem::path() : a.model,
                  a.exports);
@@ -50,7 +50,8 @@ void declare_statics(CommandLine& program) {
   const auto a = std::make_shared<StaticsArguments>();
   line.positional("model", a->model, "assembled part (.fe.h5)");
   line.output("-o,--output", a->output, "static results (.static.h5)", true);
-  line.option("--case", a->cases, "load or case to solve (repeatable); default: all");
+  line.option("--case", a->cases, "load or case to solve (repeatable); default: all, or the cases where a gasket has a "
+              "curve");
   line.option("--stress-at", a->stress_at,
               "print stresses here (repeatable): node number, x,y,z in metres, or a sensor's name");
   line.output("--export", a->exports,

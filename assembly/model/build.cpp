@@ -135,6 +135,16 @@ fe::FePoints points_of(const DofNumbers& numbers, const Elimination& elimination
   return points;
 }
 
+/// The closures of gaskets by the coordinates of the model.
+std::vector<fe::FeGasket> on_coordinates(std::vector<fe::FeGasket> gaskets,
+                                         const Elimination& elimination) {
+  for (fe::FeGasket& gasket : gaskets) {
+    gasket.closing_s = gasket.closing * elimination.T_s;
+    gasket.closing = SparseMatrix(gasket.closing * elimination.T);
+  }
+  return gaskets;
+}
+
 /// M times unit accelerations of all nodes (3 columns), when a load needs it.
 Eigen::MatrixXd momentum_of(const SparseMatrix& M, const PartData& part) {
   if (std::ranges::none_of(part.recipe.loads, &LoadSpec::is_uniform_acceleration)) return {};
@@ -280,10 +290,12 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
     add(nodal.M, parts.M);
     add(loss, parts.loss);
   }
+  std::vector<fe::FeGasket> curves;
   if (!recipe.gaskets.empty()) {
-    const GasketStiffness gaskets = gasket_stiffness(part);
+    GasketStiffness gaskets = gasket_stiffness(part);
     add(nodal.K, gaskets.K);
     add(loss, gaskets.loss);
+    curves = on_coordinates(std::move(gaskets.curves), elimination);
   }
   clock.lap("assemble");
   LoadInputs inputs{.momentum = momentum_of(nodal.M, part),
@@ -327,6 +339,7 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
                 .temperature_rise = std::move(loads.temperature_rise),
                 .heat = std::move(inputs.heat),
                 .cases = recipe.cases,
+                .gaskets = std::move(curves),
                 .surfaces = mesh.surfaces,
                 .cells = {mesh.regions, recipe.materials, mesh.cells, mesh.shells, recipe.sections,
                           mesh.node_ids},

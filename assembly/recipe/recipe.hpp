@@ -15,6 +15,7 @@
 #include "core/base/config.hpp"
 #include "core/fe/assemble.hpp"
 #include "core/fe/axes.hpp"
+#include "core/fe/fe_gasket.hpp"
 #include "core/fe/material.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/recipe/recipe.hpp"
@@ -71,6 +72,8 @@ struct TieSpec : recipe::Tie {
 struct GasketSpec : TieSpec {
   double normal = 0.0, tangential = 0.0;  // stiffnesses per area [N/m3]
   double loss_factor = 0.0;
+  fe::GasketCurve curve{};                     // for statics; without points none
+  std::optional<fe::PressedPoints> pressed{};  // has stiffness there alone
 };
 
 /// [[equation]]: sum coefficient * u = 0; the first term depends on the others.

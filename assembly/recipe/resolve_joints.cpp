@@ -194,7 +194,16 @@ GasketSpec Resolver::gasket(const recipe::Gasket& gasket, size_t number) {
   const std::string name = gasket.name.empty() ? fmt::format("gasket_{}", number) : gasket.name;
   if (gasket.normal == 0.0 && gasket.tangential == 0.0)
     gasket.source.fail("normal_stiffness", "found 0 for both stiffnesses, expected one above");
-  return {tied(gasket, name, "gasket"), gasket.normal, gasket.tangential, gasket.loss_factor};
+  GasketSpec spec{tied(gasket, name, "gasket"),
+                  gasket.normal,
+                  gasket.tangential,
+                  gasket.loss_factor,
+                  {gasket.closure, gasket.pressure}};
+  if (!gasket.pressed.empty()) {
+    spec.pressed = fe::read_pressed(gasket.pressed, gasket.pressed_case, name);
+    files_.push_back(gasket.pressed);
+  }
+  return spec;
 }
 
 }  // namespace clatter::assembly

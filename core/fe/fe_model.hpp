@@ -12,6 +12,7 @@
 #include "core/base/h5_file.hpp"
 #include "core/base/sparse.hpp"
 #include "core/fe/fe_cells.hpp"
+#include "core/fe/fe_gasket.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/rom/reduced_model.hpp"
 
@@ -109,6 +110,7 @@ struct FeModel {
   std::map<std::string, Eigen::VectorXd> temperature_rise;     // n_nodes [K], of temperature loads
   std::map<std::string, HeatField> heat;                       // temperature fields by name
   std::map<std::string, std::map<std::string, double>> cases;  // factors of loads
+  std::vector<FeGasket> gaskets{};                             // with curves, for statics
   std::map<std::string, mesh::Surface> surfaces;               // outward
   FeCells cells;                                               // for stresses
   rom::MassProperties mass;                                    // of elements and point masses

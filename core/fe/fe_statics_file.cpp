@@ -168,6 +168,7 @@ void write_statics(H5File& file, const FeModel& model) {
   for (const auto& [load, values] : model.temperature_rise)
     file.write("temperature_rise/" + load, values);
   write_heat(file, model);
+  write_gaskets(file, model.gaskets);
   for (const auto& [name, factors] : model.cases)
     for (const auto& [load, factor] : factors) file.set("cases/" + name, load, factor);
 }
@@ -180,6 +181,7 @@ void read_statics(const H5File& file, FeModel& model) {
   read_of_loads(file, "prescribed", model, model.supports.size(), model.prescribed);
   read_of_loads(file, "temperature_rise", model, model.nodes.rows(), model.temperature_rise);
   read_heat(file, model);
+  model.gaskets = read_gaskets(file, model.size(), model.supports.size());
   for (const std::string& name : file.list("cases"))
     for (const std::string& load : file.attributes("cases/" + name)) {
       const std::string group = "cases/" + name;

@@ -255,12 +255,38 @@ const Keys<Tie>& bolt_keys() {
   return keys;
 }
 
+namespace {
+
+/// A curve has two points or more, which ascend from pressure 0.
+void check_curve(const Config& table, const Gasket& gasket) {
+  const auto ascends = [](const std::vector<double>& values, auto order) {
+    return std::ranges::adjacent_find(values, order) == values.end();
+  };
+  const size_t count = gasket.closure.size();
+  if (gasket.pressure.size() != count)
+    table.fail("pressure_mpa",
+               fmt::format("found {} numbers for {} of closure_um, expected as many",
+                           gasket.pressure.size(), count));
+  if (count == 0) return;
+  if (count == 1 || !ascends(gasket.closure, std::greater_equal()))
+    table.fail("closure_um", "found closures that do not ascend, expected two or more that do");
+  if (gasket.pressure[0] != 0.0 || !ascends(gasket.pressure, std::greater()))
+    table.fail("pressure_mpa",
+               "found pressures that do not ascend from 0, expected 0 and then higher ones");
+  if (gasket.pressure[count - 1] == gasket.pressure[count - 2])
+    table.fail("pressure_mpa",
+               "found the last two equal, expected a rise: the curve goes on with its last slope");
+}
+
+}  // namespace
+
 const Keys<Gasket>& gasket_keys() {
   static const Keys<Gasket> keys(
       "gasket", "an elastic layer between a slave and a master surface",
       [](auto& key, Gasket& gasket) {
         key.source(gasket.source);
-        key.text("name", gasket.name, "name for messages; gasket_1, gasket_2, ... without it");
+        key.name("name", gasket.name, "name of the gasket; gasket_1, gasket_2, ... without it")
+            .distinct();
         surface_rows(key, gasket, true);
         key.number("normal_stiffness", gasket.normal, Range::not_negative(),
                    "pressure over the closing of the gap; of a curve its slope when it is unloaded "
@@ -272,6 +298,23 @@ const Keys<Gasket>& gasket_keys() {
             .required()
             .shown_in("N/m3");
         loss_row(key, gasket.loss_factor);
+        key.numbers("closure_um", gasket.closure, {},
+                    "curve of loading, which clatter-modal statics follows in place of "
+                    "normal_stiffness: ascending closures, the first one where it begins to carry; "
+                    "below it is open and does not pull")
+            .needs("pressure_mpa");
+        key.numbers("pressure_mpa", gasket.pressure, Range::not_negative(),
+                    "pressure at each of these closures, 0 at the first; beyond the last one it "
+                    "goes on with the last slope")
+            .needs("closure_um");
+        key.path("pressed", gasket.pressed,
+                 "static results (.static.h5) of a model in which the gasket of this name has a "
+                 "curve: the stiffnesses are those of its pressed points, and 0 where it is open")
+            .excludes("closure_um", "the curve has been followed");
+        key.text("pressed_case", gasket.pressed_case,
+                 "case of these results; needed where they have several")
+            .needs("pressed");
+        key.check([](const Config& table, Gasket& gasket) { check_curve(table, gasket); });
       });
   return keys;
 }

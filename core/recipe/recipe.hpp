@@ -220,6 +220,9 @@ struct Tie {
 struct Gasket : Tie {
   double normal = 0.0, tangential = 0.0;  // stiffnesses per area [N/m3]
   double loss_factor = 0.0;
+  std::vector<double> closure{}, pressure{};  // curve of loading, for statics [m], [Pa]
+  std::filesystem::path pressed{};            // static results that say where it is pressed
+  std::string pressed_case{};
 };
 
 /// [[contact]]: a grid of patches on a cylinder surface.

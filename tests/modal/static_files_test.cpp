@@ -91,7 +91,7 @@ TEST_F(StaticFiles, TheCommandWritesStressesAndRefusesAnInvalidPosition) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "bar.static.h5"));
   ASSERT_EQ(run("statics bar.fe.h5 --case both --stress-at 1 -o bar.static.h5"), 0);
   const StaticCase want = solve_static(model_, {"both"}).cases[0];
-  const H5File file = open_artefact(folder_ / "bar.static.h5", kStaticSchema);
+  const H5File file = open_artefact(folder_ / "bar.static.h5", fe::kStaticSchema);
   EXPECT_EQ(file.read_ints("stress_nodes/body"), want.stress[0].nodes);
   EXPECT_LT((file.read_rows("cases/both/stress/body") - want.stress[0].stress).norm(),
             1e-12 * want.stress[0].stress.norm());
@@ -100,7 +100,7 @@ TEST_F(StaticFiles, TheCommandWritesStressesAndRefusesAnInvalidPosition) {
 
 TEST_F(StaticFiles, TheCommandWritesDisplacementsAndReactionsOfTheNamedCases) {
   ASSERT_EQ(run("statics bar.fe.h5 --case both --case push -o bar.static.h5"), 0);
-  const H5File file = open_artefact(folder_ / "bar.static.h5", kStaticSchema);
+  const H5File file = open_artefact(folder_ / "bar.static.h5", fe::kStaticSchema);
   EXPECT_EQ(file.list("cases"), (std::vector<std::string>{"both", "push"}));
   const StaticCase want = solve_static(model_, {"both"}).cases[0];
   const RowMatrix u = file.read_rows("cases/both/displacement");

@@ -141,7 +141,7 @@ class ShapeFile : public ::testing::Test {
     std::filesystem::create_directory(folder_);
     const fe::FeModel model = cylinder(mesh::CellType::kHex20, 2);
     H5File file = H5File::create(folder_ / "part.static.h5");
-    write_provenance(file, {kStaticSchema, "", {}});
+    write_provenance(file, {fe::kStaticSchema, "", {}});
     write_static(file, model, solve_static(model, {}));
     file.commit();
   }

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures from artefacts: one function per picture, one style for all."""
-from . import accelerations, distortion, drive, faces, film, gap, loop, piston, quality, radiation, shape, speed, stribeck, style, tensioner, valves
+from . import accelerations, distortion, drive, faces, film, gap, gasket, loop, piston, quality, radiation, shape, speed, stribeck, style, tensioner, valves
 
 PICTURES = {
     "piston": piston.draw,
     "film": film.draw,
     "gap": gap.draw,
+    "gasket": gasket.draw,
     "acceleration": accelerations.draw,
     "distortion": distortion.draw,
     "power": radiation.draw,
