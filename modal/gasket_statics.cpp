@@ -18,6 +18,7 @@ using Eigen::VectorXd;
 using sparse::SupernodalFactor;
 
 constexpr int kMostSteps = 60;
+constexpr int kMostSingular = 10;    // steps with a tangent that is singular
 constexpr double kShortStep = 0.01;  // of Newton's: the tangent is close to singular
 constexpr double kHolds = 1e-3;      // of a curve's steepest slope, where a tangent is singular
 constexpr double kAtPoint = 1e-9;    // of the largest closure: at a point of the curve
@@ -69,7 +70,8 @@ class Pressing {
   }
 
   PressedSolution solve(const std::string& where) {
-    for (int step = 1; step <= kMostSteps; ++step) {
+    int singular = 0;
+    for (int step = 1; step <= kMostSteps && singular <= kMostSingular; ++step) {
       const std::vector<std::vector<int>> lines = lines_now();
       const SparseMatrix K = tangent(lines, 0.0);
       std::optional<SupernodalFactor> factor;
@@ -83,7 +85,9 @@ class Pressing {
         if (found.solved.forward[0] <= 1.0) return found;
         break;
       }
-      if (!exact) length_ = 1.0;
+      if (exact) continue;
+      ++singular;
+      length_ = 1.0;
     }
     throw NumericsError(fmt::format(
         "{}: found no state of the gaskets that carries the loads, expected one: does a "

@@ -81,6 +81,13 @@ class Cluster(Page):
         self.run_page()
 
 
+class WholeEngine(Page):
+    name = "9-whole-engine.md"
+
+    def test_the_page_is_what_its_commands_do(self):
+        self.run_page()
+
+
 class Pages(unittest.TestCase):
     def test_each_page_is_in_the_index_and_is_run_by_a_registered_test(self):
         registered = re.findall(r"clatter_python_test\(tutorial_test (?:pipeline|long) (\w+)\)",
