@@ -138,7 +138,7 @@ class Page(Folder):
         with h5py.File(self.folder / "dry.field.h5", "r+") as field:
             quietest = min(panels, key=panels.get)
             for name in panels:
-                field[f"analysis/cycle/panels/{name}"].attrs["sound_power_share"] = 0.7 if name == quietest else 0.1
+                field[f"analysis/cycle/panels/{name}"].attrs.update(sound_power_share=0.7 if name == quietest else -0.1, sound_power_dba=81.26)
         with h5py.File(self.folder / "dry.run.h5", "r+") as run:
             run["inputs/path"], run["inputs/sha256"] = [b"dry.run.toml", b"wet.run.toml"], [b"0", b"0"]
         with h5py.File(self.folder / "wet.run.h5", "r+") as run:
@@ -147,6 +147,11 @@ class Page(Folder):
         own = next(one for one in data["summary"]["loudest"] if one["run"] == label["dry"])
         self.assertEqual((own["part"], own["share"]), (quietest, 0.7))
         self.assertEqual(data["summary"]["base"], label["wet"])
+        table = next(one for one in data["summary"]["tables"] if one["title"].startswith("Sound power that leaves through each panel"))
+        self.assertEqual([row[0].rpartition(", ")[2] for row in table["rows"]][0], quietest.replace("_", " "))
+        self.assertEqual([row[-2:] for row in table["rows"]], [["81.3", "70.0"]] + (len(panels) - 1) * [["takes up", "-10.0"]])
+        printed = clatter("report", self.folder.name, folder=self.folder.parent)
+        self.assertRegex(printed.stdout, r"dry, \S+ +\d\.\d+ +[\d.]+ +81\.3 +70\.0")
 
     def test_two_folders_are_one_page_with_the_change_of_their_levels(self):
         for name, louder in (("old", 0.0), ("new", 2.5)):

@@ -83,6 +83,20 @@ def field_row(field):
     return [*row, sound.level() if sound else NOTHING, fields.radiated_estimate(field, mean).level()]
 
 
+PANEL_HEAD = ["panel", "area [m²]", "ERP [dB(A) re 1 pW]", "sound power [dB(A) re 1 pW]", "share, unweighted [%]"]
+PANELS = "Sound power that leaves through each panel, of boundary elements, with what the other panels do to it"
+
+
+def panel_rows(field):
+    """Rows of PANEL_HEAD, the largest share first; none without the sound powers of panels. A panel may take up what others send."""
+    at = f"{fields.level_piece(field)}/panels"
+    panels = [(name, panel.attrs) for name, panel in field.get(at, {}).items()
+              if name not in ("skin", "exposed") and "sound_power_share" in panel.attrs]
+    return [[name.replace("_", " "), f"{of['area_m2']:.3f}", f"{of['erp_dba']:.1f}",
+             f"{of['sound_power_dba']:.1f}" if of["sound_power_share"] > 0.0 else "takes up", f"{100.0 * of['sound_power_share']:.1f}"]
+            for name, of in sorted(panels, key=lambda one: -one[1]["sound_power_share"])]
+
+
 def loudness(label, field):
     """(level [dB(A)], sentence) of what a field radiates over its cycle, the mean of its cycles, or its first piece: by its sound power, or else its
     ERP."""

@@ -106,12 +106,14 @@ def print_drives(paths):
 
 
 def print_fields(paths):
-    rows, loud = [], []
+    rows, panels, loud = [], [], []
     for path in paths:
         with artefact.open_artefact(path, "field") as file:
+            panels += [[f"{stem(path)}, {panel}", *cells] for panel, *cells in findings.panel_rows(file)]
             rows.append([stem(path), *findings.field_row(file)])
             loud.append(findings.loudness(stem(path), file))
     print_table(f"sensors above {slap.FROM_HZ:g} Hz around firing TDC, and power over the cycle", ["run", *findings.FIELD_HEAD], rows)
+    print_table(findings.PANELS[0].lower() + findings.PANELS[1:], [f"run, {findings.PANEL_HEAD[0]}", *findings.PANEL_HEAD[1:]], panels)
     print_loudness(loud)
 
 

@@ -94,12 +94,13 @@ def drives(folder):
 
 def tables(folder):
     """(title, head, rows); a table without figures is left out."""
-    rows, sensors, parts, cells = [], [], [], []
+    rows, sensors, panels, parts, cells = [], [], [], [], []
     for one in folder.runs:
         if one.run is not None:
             rows += [[f"{one.label}, {cylinder}".rstrip(", "), *cells] for cylinder, cells in findings.run_rows(one.run)]
         if one.field is not None:
             sensors.append([one.label, *findings.field_row(one.field)])
+            panels += [[f"{one.label}, {panel}", *cells] for panel, *cells in findings.panel_rows(one.field)]
     for path in folder.files["fe"]:
         with artefact.open_artefact(path, "fe") as file:
             parts.append([artefact.stem(path), findings.fe_size(file), findings.reduced_size(path), *findings.mass(file)])
@@ -108,6 +109,7 @@ def tables(folder):
             cells += [[artefact.stem(path), *row] for row in findings.mesh_quality(file)]
     found = [("Runs, last cycle", ["run", *findings.RUN_HEAD], rows),
              (f"Accelerations above {slap.FROM_HZ:g} Hz around firing TDC, and power over the cycle", ["run", *findings.FIELD_HEAD], sensors),
+             (findings.PANELS, [f"run, {findings.PANEL_HEAD[0]}", *findings.PANEL_HEAD[1:]], panels),
              ("Parts", ["part", "FE DoF", "reduced DoF", "mass [kg]"], parts),
              ("Worst cells of the meshes", ["part", "measure", "worst", "cell", "at [mm]"], cells)]
     return [one for one in (without_gaps(*table) for table in found) if len(one["head"]) > 1]
