@@ -16,7 +16,7 @@ namespace clatter::assembly {
 struct RecipeNames {
   const mesh::Mesh& mesh;
   std::set<std::string> sets{}, points{};  // sets: also of points
-  std::set<std::string> ties{}, heats{}, loads{};
+  std::set<std::string> ties{}, gaskets{}, heats{}, loads{};
   std::map<std::string, fe::Axes> systems{};
   std::vector<int32_t> turning = mesh::turning_nodes(mesh);  // nodes with rotations
 

@@ -192,6 +192,8 @@ TieSpec Resolver::bolt(const recipe::Tie& bolt, size_t) {
 
 GasketSpec Resolver::gasket(const recipe::Gasket& gasket, size_t number) {
   const std::string name = gasket.name.empty() ? fmt::format("gasket_{}", number) : gasket.name;
+  if (!names_.gaskets.insert(name).second)
+    gasket.source.fail("name", fmt::format("found \"{}\" twice, expected different names", name));
   if (gasket.normal == 0.0 && gasket.tangential == 0.0)
     gasket.source.fail("normal_stiffness", "found 0 for both stiffnesses, expected one above");
   GasketSpec spec{tied(gasket, name, "gasket"),

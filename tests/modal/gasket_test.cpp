@@ -142,6 +142,31 @@ TEST(Gaskets, PressedAllOverHaveTheStiffnessOfTheirLine) {
   EXPECT_NEAR(found.energy / solved(linear).energy, 1.0, 1e-10);
 }
 
+TEST(Gaskets, BetweenMovedFacesPressAsTheirCurveSays) {
+  // The face itself is moved, so that its closure is by supported coordinates: 11 um, 1.5 MPa.
+  const FeModel model = built(materials(2.1e17) + gasket(5e12, 0.0, kTwoLines) +
+                              "[[support]]\nname = \"lid\"\nsurface = \"b_z0\"\n"
+                              "[[load]]\nname = \"close\"\nkind = \"displacement\"\nsurface = "
+                              "\"b_z0\"\ndirections = \"z\"\nvalue = -1.0e-6\n"
+                              "[[case]]\nname = \"pressed\"\nloads = { close = 11.0 }\n");
+  const StaticCase pressed = solved(model);
+  const double force = 1.5e6 * kLength * kWidth;
+  EXPECT_NEAR(pressed.gaskets[0].closure.minCoeff(), 11e-6, 1e-11);
+  EXPECT_NEAR(pressed.support_sums(0, 2), force, 1e-4 * force);  // the ground
+  EXPECT_NEAR(pressed.support_sums(1, 2), -force, 1e-4 * force);
+  EXPECT_NEAR(pressed.energy, (5.0 + 1.25) * kLength * kWidth, 1e-4 * pressed.energy);
+}
+
+TEST(Gaskets, OfOneNameAreRefused) {
+  std::string other = gasket(1e12, 1e10);
+  other.erase(other.find("name = \"seal\"\n"), 14);  // gasket_2
+  std::string second = gasket(1e12, 1e10);
+  second.replace(second.find("\"seal\""), 6, "\"gasket_2\"");
+  test::expect_parts(
+      test::refusal_of([&] { built(materials(2.1e11) + second + other + force_at(0.1, 1.0)); }),
+      {"gasket[1].name: found \"gasket_2\" twice, expected different names"});
+}
+
 TEST(Gaskets, TheDefaultIsTheCasesBecauseALoadAloneMayLift) {
   const FeModel model =
       built(materials(2.1e11) + gasket(1e12, 1e11, kTwoLines) + force_at(0.5 * kLength, 1e4));
