@@ -215,8 +215,10 @@ void check_structure(const Mesh& mesh, const std::string& where) {
   check_shells(mesh, where);
   const auto lone = std::find(used.begin(), used.end(), false);
   if (lone != used.end()) {
+    const auto row = static_cast<size_t>(lone - used.begin());
+    const bool numbered = mesh.node_ids.size() == used.size();
     throw InputError(fmt::format("{}: node {} belongs to no cell: it has no stiffness", where,
-                                 lone - used.begin()));
+                                 numbered ? mesh.node_ids[row] : static_cast<int64_t>(row)));
   }
   check_ids(mesh, where);
   check_sets(mesh, where);

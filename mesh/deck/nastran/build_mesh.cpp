@@ -7,6 +7,7 @@
 
 #include "mesh/deck/cell_repair.hpp"
 #include "mesh/deck/nastran/model.hpp"
+#include "mesh/deck/shell_shape.hpp"
 
 namespace clatter::mesh::deck::nastran {
 namespace {
@@ -54,7 +55,8 @@ std::vector<int32_t> find_rows(Model& model) {
 void let_shells_turn(Model& model) {
   std::vector<bool> turns(static_cast<size_t>(model.node_map.node_count()), false);
   for (const RawSkin& shell : model.raw.shell_cells) {
-    const ShellFace face = face_of_shell(model, shell);
+    ShellFace face = face_of_shell(model, shell);
+    drop_repeated_corner(face);
     for (int i = 0; i < traits(face.type).nodes; ++i)
       turns[static_cast<size_t>(face.nodes[static_cast<size_t>(i)])] = true;
     if (face.centre >= 0) turns[static_cast<size_t>(face.centre)] = true;

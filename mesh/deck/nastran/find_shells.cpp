@@ -41,7 +41,7 @@ class ShellFinder {
     }
   }
 
-  // The nodes of a shell are nodes of the mesh.
+  // The nodes of a shell are nodes of the mesh, without that of a side between equal corners.
   void take(RawSkin& skin) {
     if (skin.missing > 0)
       fail(skin,
@@ -49,11 +49,13 @@ class ShellFinder {
     ShellFace face{.type = skin.type};
     std::array<Eigen::Vector3d, kMaxFaceNodes> at{};
     for (size_t i = 0; i < static_cast<size_t>(traits(skin.type).nodes); ++i) {
-      const size_t row = row_of(skin, skin.grids[i]);
-      mesh_node_[row] = 0;
       face.nodes[i] = skin.grids[i];
-      at[i] = vector(model_.raw.grids.at[row]);
+      at[i] = vector(model_.raw.grids.at[row_of(skin, skin.grids[i])]);
     }
+    ShellFace kept = face;
+    drop_repeated_corner(kept);
+    for (size_t i = 0; i < static_cast<size_t>(traits(kept.type).nodes); ++i)
+      mesh_node_[row_of(skin, kept.nodes[i])] = 0;
     if (has_centre(face)) skin.centre = add_row(shell_centre(at), skin.origin);
   }
 

@@ -245,6 +245,11 @@ TEST(NastranShells, QuadraticOnesAreFourLinearOnes) {
             1);
   EXPECT_THAT(refusal(kSheetSection + kSheetGrids + middle + "CQUAD8,11,2,1,2,5,4,21,22\n"),
               HasSubstr("CQUAD8 11: found 2 of its mid-side grids blank, expected all or none"));
+  // G5 lies between equal corners: a triangle does not have it.
+  const auto collapsed =
+      read_deck(kSheetSection + kSheetGrids + middle + "CQUAD8,11,2,1,1,5,4,21,22,+\n+,23,24\n");
+  EXPECT_EQ(collapsed.mesh.nodes.rows(), 6);
+  EXPECT_THAT(collapsed.mesh.node_ids, ElementsAre(1, 4, 5, 22, 23, 24));
 }
 
 TEST(NastranShells, FacesThatAreNoneAreRefusedWithNumberAndPosition) {
