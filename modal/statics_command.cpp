@@ -50,7 +50,8 @@ void declare_statics(CommandLine& program) {
   const auto a = std::make_shared<StaticsArguments>();
   line.positional("model", a->model, "assembled part (.fe.h5)");
   line.output("-o,--output", a->output, "static results (.static.h5)", true);
-  line.option("--case", a->cases, "load or case to solve (repeatable); default: all, or the cases where a gasket has a "
+  line.option("--case", a->cases,
+              "load or case to solve (repeatable); default: all, or the cases where a gasket has a "
               "curve");
   line.option("--stress-at", a->stress_at,
               "print stresses here (repeatable): node number, x,y,z in metres, or a sensor's name");

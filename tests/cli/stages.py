@@ -23,6 +23,15 @@ def run_stage(stage, *arguments, folder, **options):
                           capture_output=True, timeout=300, **options)
 
 
+def run_all(folder, *commands):
+    """Runs stages in `folder`, each a list that begins with its name; returns the last one's process. AssertionError for one that fails."""
+    for stage, *arguments in commands:
+        done = run_stage(stage, *arguments, folder=folder)
+        if done.returncode:
+            raise AssertionError(f"{stage}: {done.stderr}")
+    return done
+
+
 def fingerprint(path):
     """Properties that must not change: content, inode and time stamp of a file."""
     state = path.stat()

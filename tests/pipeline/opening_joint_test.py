@@ -152,23 +152,16 @@ class OpeningJoint(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         cls.nodes, cls.text, cls.pushed = mesh_text()
         (cls.folder / "joint.inp").write_text(cls.text)
-        cls.run_all(["mesh", "joint.inp", "--units", "m-kg-s", "-o", "joint.mesh.h5"])
+        stages.run_all(cls.folder, ["mesh", "joint.inp", "--units", "m-kg-s", "-o", "joint.mesh.h5"])
         cls.solve("curve", CURVE)
-
-    @classmethod
-    def run_all(cls, *commands):
-        for stage, *arguments in commands:
-            done = stages.run_stage(stage, *arguments, folder=cls.folder)
-            if done.returncode:
-                raise AssertionError(f"{stage}: {done.stderr}")
-        return done
 
     @classmethod
     def solve(cls, name, behaviour, push=PUSH):
         """What `statics --json` says."""
         (cls.folder / f"{name}.fe.toml").write_text(RECIPE.format(behaviour=behaviour, push=push))
-        done = cls.run_all(["assembly", "joint.mesh.h5", "-c", f"{name}.fe.toml", "-o", f"{name}.fe.h5", "--depfile", f"{name}.d"],
-                           ["modal", "statics", f"{name}.fe.h5", "--case", "pressed", "-o", f"{name}.static.h5", "--json"])
+        done = stages.run_all(
+            cls.folder, ["assembly", "joint.mesh.h5", "-c", f"{name}.fe.toml", "-o", f"{name}.fe.h5", "--depfile", f"{name}.d"],
+            ["modal", "statics", f"{name}.fe.h5", "--case", "pressed", "-o", f"{name}.static.h5", "--json"])
         return json.loads(done.stdout)["results"][0]
 
     def displacement(self, name):
@@ -203,16 +196,17 @@ class OpeningJoint(unittest.TestCase):
             self.assertAlmostEqual(pressure.max(), said["highest_pressure_pa"], delta=1.0)
 
     def test_the_pressed_state_is_a_file_of_the_next_model(self):
-        said = self.run_all(["assembly", "joint.mesh.h5", "-c", "curve.fe.toml", "-o", "again.fe.h5"])
+        said = stages.run_all(self.folder, ["assembly", "joint.mesh.h5", "-c", "curve.fe.toml", "-o", "again.fe.h5"])
         self.assertIn("seal: 0.0144 m2, 100.0 % of the slave surface", said.stderr)
         self.assertIn("statics follow its curve, all else has normal_stiffness", said.stderr)
         (self.folder / "state.fe.toml").write_text(RECIPE.format(behaviour='pressed = "curve.static.h5"', push=1.0))
-        said = self.run_all(["assembly", "joint.mesh.h5", "-c", "state.fe.toml", "-o", "state.fe.h5", "--depfile", "state.d"])
+        said = stages.run_all(
+            self.folder, ["assembly", "joint.mesh.h5", "-c", "state.fe.toml", "-o", "state.fe.h5", "--depfile", "state.d"])
         self.assertRegex(said.stderr, r"seal: .*; pressed on [34]\d\.\d %, without stiffness elsewhere")
         self.assertIn("curve.static.h5", (self.folder / "state.d").read_text().splitlines()[0])
         frequency = {}
         for name in ("again", "state"):
-            self.run_all(["modal", f"{name}.fe.h5", "--count", "1", "-o", f"{name}.modes.h5"])
+            stages.run_all(self.folder, ["modal", f"{name}.fe.h5", "--count", "1", "-o", f"{name}.modes.h5"])
             with h5py.File(self.folder / f"{name}.modes.h5") as modes:
                 frequency[name] = modes["frequency_hz"][0] if "frequency_hz" in modes else modes["hz"][0]
         self.assertLess(frequency["state"], 0.8 * frequency["again"])  # two thirds of the plate hang in the air

@@ -175,25 +175,19 @@ class WarmBore(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         cls.nodes, cls.model, cls.faces = deck()
         (cls.folder / "block.inp").write_text(cls.model)
-        cls.run_all(["mesh", "block.inp", "--units", "m-kg-s", "-o", "block.mesh.h5"])
+        stages.run_all(cls.folder, ["mesh", "block.inp", "--units", "m-kg-s", "-o", "block.mesh.h5"])
         with h5py.File(cls.folder / "block.mesh.h5") as mesh:
             cls.order = np.argsort(mesh["node_ids"][()]) if "node_ids" in mesh else np.arange(len(cls.nodes))
         radii = np.array([np.hypot(*position(0.5, n / 4800, 0.0)[:2]) for n in range(4800)])
         cls.pressure = 4.0 * PULL / (0.5 * (radii ** 2 - BORE ** 2).sum() * 2.0 * np.pi / 4800)
         (cls.folder / "block.fe.toml").write_text(
             RECIPE.format(inside=FILM_IN, outside=FILM_OUT, pull=4.0 * PULL, pressure=cls.pressure))
-        cls.run_all(["assembly", "block.mesh.h5", "-c", "block.fe.toml", "-o", "block.fe.h5"],
-                    ["modal", "statics", "block.fe.h5", "-o", "block.static.h5"],
-                    ["modal", "shape", "block.static.h5", "--surface", "BORE", "--axis-point", "0,0,0", "--axis", "0,0,1",
-                     "--zero-angle", "1,0,0", "--heights", str(2 * ALONG + 1), "--angles", str(2 * AROUND), "--case", "warm", "--case",
-                     "assembly", "--csv", "bore.csv", "-o", "bore.shape.h5"])
-
-    @classmethod
-    def run_all(cls, *commands):
-        for stage, *arguments in commands:
-            done = stages.run_stage(stage, *arguments, folder=cls.folder)
-            if done.returncode:
-                raise AssertionError(f"{stage}: {done.stderr}")
+        stages.run_all(
+            cls.folder, ["assembly", "block.mesh.h5", "-c", "block.fe.toml", "-o", "block.fe.h5"],
+            ["modal", "statics", "block.fe.h5", "-o", "block.static.h5"],
+            ["modal", "shape", "block.static.h5", "--surface", "BORE", "--axis-point", "0,0,0", "--axis", "0,0,1",
+            "--zero-angle", "1,0,0", "--heights", str(2 * ALONG + 1), "--angles", str(2 * AROUND), "--case", "warm", "--case",
+            "assembly", "--csv", "bore.csv", "-o", "bore.shape.h5"])
 
     def ours(self, case):
         with h5py.File(self.folder / "block.static.h5") as static:
@@ -279,7 +273,7 @@ class WarmBore(unittest.TestCase):
             rise = model["heat/running/temperature"][()] - 293.15
             self.assertLess(np.abs(static["cases/warm/temperature_rise"][()] - rise).max(), 1e-10)
             self.assertNotIn("temperature_rise", static["cases/assembly"])
-        self.run_all(["modal", "export", "block.static.h5", "block.vtu", "--cells", "block.fe.h5"])
+        stages.run_all(self.folder, ["modal", "export", "block.static.h5", "block.vtu", "--cells", "block.fe.h5"])
         self.assertIn(b'Name="warm temperature rise"', (self.folder / "block.vtu").read_bytes())
 
     def test_a_table_of_these_temperatures_gives_the_same_displacements(self):
@@ -288,8 +282,9 @@ class WarmBore(unittest.TestCase):
         np.savetxt(self.folder / "measured.csv", points, fmt="%.15g", delimiter=",", header="x,y,z,temperature_c", comments="")
         recipe = (self.folder / "block.fe.toml").read_text()
         (self.folder / "measured.fe.toml").write_text(recipe.replace('heat = "running"', 'table = "measured.csv"'))
-        self.run_all(["assembly", "block.mesh.h5", "-c", "measured.fe.toml", "-o", "measured.fe.h5", "--depfile", "measured.d"],
-                     ["modal", "statics", "measured.fe.h5", "--case", "warm", "-o", "measured.static.h5"])
+        stages.run_all(
+            self.folder, ["assembly", "block.mesh.h5", "-c", "measured.fe.toml", "-o", "measured.fe.h5", "--depfile", "measured.d"],
+            ["modal", "statics", "measured.fe.h5", "--case", "warm", "-o", "measured.static.h5"])
         self.assertIn("measured.csv", (self.folder / "measured.d").read_text().splitlines()[0])
         with h5py.File(self.folder / "measured.static.h5") as static:
             theirs = static["cases/warm/displacement"][()][self.order]
