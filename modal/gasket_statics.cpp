@@ -20,6 +20,7 @@ using sparse::SupernodalFactor;
 constexpr int kMostSteps = 60;
 constexpr int kMostSingular = 10;    // steps with a tangent that is singular
 constexpr double kShortStep = 0.01;  // of Newton's: the tangent is close to singular
+constexpr double kDescent = 0.1;     // of the energy that the first derivative promises (Armijo)
 constexpr double kHolds = 1e-3;      // of a curve's steepest slope, where a tangent is singular
 constexpr double kAtPoint = 1e-9;    // of the largest closure: at a point of the curve
 
@@ -165,11 +166,12 @@ class Pressing {
     for (size_t g = 0; g < curves_.size(); ++g) curves_[g].closure += length_ * change[g];
   }
 
-  /// 1, or by bisection where the derivative has become positive: much of that at the start.
+  /// 1 where that surely lowers the energy: its change is at most the mean of the derivatives in
+  /// the middle and at the end, since they do not fall. Else the least energy, by bisection.
   template <typename Slope>
   static double length_of(const Slope& slope_at) {
     const double start = slope_at(0.0);
-    if (!(slope_at(1.0) > -0.5 * start)) return 1.0;
+    if (slope_at(0.5) + slope_at(1.0) <= kDescent * start) return 1.0;
     double low = 0.0, high = 1.0;
     for (int k = 0; k < 40; ++k) {
       const double mid = 0.5 * (low + high);

@@ -270,13 +270,13 @@ StaticSolution solve_with_curves(const fe::FeModel& model, const std::vector<std
   return solution;
 }
 
-std::string describe_gasket(const fe::FeGasket& gasket, const fe::GasketState& state, int steps) {
+std::string describe_gasket(const fe::FeGasket& gasket, const fe::GasketState& state) {
   const GasketSums sums = sums_of(gasket, state);
   std::string text = fmt::format(
       "  {}: pressed on {:.1f} % of {:.4g} m2, force {:.6g} N, highest pressure {:.4g} MPa",
       gasket.name, 100.0 * sums.pressed / sums.area, sums.area, sums.force, 1e-6 * sums.highest);
   if (sums.opening > 0.0) text += fmt::format(", opens by up to {:.3g} um", 1e6 * sums.opening);
-  return text + fmt::format(" ({} steps)", steps);
+  return text;
 }
 
 }  // namespace
@@ -321,12 +321,13 @@ std::vector<std::string> describe(const fe::FeModel& model, const StaticSolution
       look(one.points.segment<3>(6 * p), model.points.position.row(p));
     lines.push_back(fmt::format(
         "{}: largest displacement {:.6g} m at ({:.4f}, {:.4f}, {:.4f}) m, energy "
-        "{:.6g} J, backward error {:.1e}, error by rounding about {:.1e}, balance {:.1e}",
+        "{:.6g} J, backward error {:.1e}, error by rounding about {:.1e}, balance {:.1e}{}",
         one.name, most, largest.x(), largest.y(), largest.z(), one.energy, one.backward_error,
-        one.forward_error, one.balance));
+        one.forward_error, one.balance,
+        one.steps > 0 ? fmt::format(", gaskets found in {} steps", one.steps) : ""));
     if (!one.stress.empty()) lines.push_back(describe_largest_stress(model, one));
     for (size_t g = 0; g < one.gaskets.size(); ++g)
-      lines.push_back(describe_gasket(model.gaskets[g], one.gaskets[g], one.steps));
+      lines.push_back(describe_gasket(model.gaskets[g], one.gaskets[g]));
     for (Eigen::Index s = 0; s < one.support_sums.rows(); ++s)
       lines.push_back(
           fmt::format("  {}: force ({:.6g}, {:.6g}, {:.6g}) N, moment about the origin "

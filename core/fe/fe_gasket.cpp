@@ -12,14 +12,18 @@
 namespace clatter::fe {
 namespace {
 
-/// The only name, or the wanted one.
-std::string chosen(const H5File& file, const std::string& group, const std::string& wanted) {
+void require_named(const H5File& file, const std::string& group, const std::string& name) {
   const std::vector<std::string> present = file.list(group);
-  if (wanted.empty() && present.size() == 1) return present[0];
-  if (std::find(present.begin(), present.end(), wanted) == present.end())
-    refuse(file, group, wanted.empty() ? fmt::format("{} of them", present.size()) : wanted,
-           fmt::format("one of: {}", fmt::join(present, ", ")));
-  return wanted;
+  if (std::find(present.begin(), present.end(), name) == present.end())
+    refuse(file, group, name, fmt::format("one of: {}", fmt::join(present, ", ")));
+}
+
+std::string only_case(const H5File& file) {
+  const std::vector<std::string> present = file.list("cases");
+  if (present.size() != 1)
+    refuse(file, "cases", fmt::format("{} of them", present.size()),
+           fmt::format("pressed_case to name one of: {}", fmt::join(present, ", ")));
+  return present[0];
 }
 
 }  // namespace
@@ -110,8 +114,9 @@ PressedPoints read_pressed(const std::filesystem::path& path, std::string of_cas
   const H5File file = open_artefact(path, kStaticSchema);
   if (!file.has("gaskets"))
     refuse(file, "gaskets", "none", "the state of a [[gasket]] with closure_um and pressure_mpa");
-  chosen(file, "gaskets", gasket);
-  of_case = chosen(file, "cases", of_case);
+  require_named(file, "gaskets", gasket);
+  if (of_case.empty()) of_case = only_case(file);
+  require_named(file, "cases", of_case);
   PressedPoints out{file.read_rows("gaskets/" + gasket + "/points"),
                     file.read_vector(fmt::format("cases/{}/gaskets/{}/pressure", of_case, gasket))};
   check_shape(file, "gaskets/" + gasket + "/points", out.points, out.pressure.size(), 3);

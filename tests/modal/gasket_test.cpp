@@ -218,6 +218,12 @@ TEST(Gaskets, PressedResultsOfAnotherMeshOrGasketAreRefusedWithTheWayOut) {
                       "static results of the same mesh and the same two surfaces"});
   test::expect_parts(refused(gasket(1e12, 1e10, pressed + "pressed_case = \"hot\"\n"), 8),
                      {"mesh.static.h5: cases: found hot, expected one of: pressed"});
+  FeModel twice = model;
+  twice.cases["again"] = twice.cases["pressed"];
+  const auto two = static_file(twice, "two_cases");
+  test::expect_parts(
+      refused(gasket(1e12, 1e10, fmt::format("pressed = \"{}\"\n", two.string())), 8),
+      {"cases: found 2 of them, expected pressed_case to name one of: again, pressed"});
   std::string other = gasket(1e12, 1e10, pressed);
   other.replace(other.find("\"seal\""), 6, "\"ring\"");
   test::expect_parts(refused(other, 8), {"gaskets: found ring, expected one of: seal"});
@@ -295,6 +301,22 @@ TEST(Gaskets, HardB20_APartThatFloatsAboveAGapFindsItsPlace) {
   EXPECT_NEAR((left.force + right.force) / 1e5, 1.0, 1e-9);
   EXPECT_GT(left.force, right.force);
   EXPECT_GT(right.force, 0.0);
+}
+
+TEST(Gaskets, HardB20_TheStateIsFoundFromAnyLoadAndSteepness) {
+  // Lines that differ by 1e4, forces from the middle to the edge and over five decades.
+  for (const double x : {0.5, 0.7, 0.95})
+    for (const double newton : {1e1, 1e3, 1e5}) {
+      FeModel model = built(materials(2.1e11) +
+                            gasket(1e12, 1e9,
+                                   "closure_um = [0.0, 5.0, 5.5, 6.0]\n"
+                                   "pressure_mpa = [0.0, 0.005, 0.1, 100.0]\n") +
+                            force_at(x * kLength, newton));
+      const StaticCase pressed = solved(model);
+      const GasketSums sums = sums_of(model.gaskets[0], pressed.gaskets[0]);
+      EXPECT_NEAR(sums.force / newton, 1.0, 1e-6) << x << " " << newton;
+      EXPECT_LT(pressed.steps, 30) << x << " " << newton;
+    }
 }
 
 TEST(Gaskets, HardB20_AnEvenPullOnOneThatOnlyPressesIsNotSolved) {
