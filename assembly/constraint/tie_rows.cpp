@@ -1,15 +1,62 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "assembly/constraint/tie_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "assembly/coupling/member_group.hpp"
 #include "assembly/coupling/rigid_coupling.hpp"
+#include "core/dense/symmetric_eigen.hpp"
 
 namespace clatter::assembly {
 namespace {
 
-constexpr double kNoMotion = 1e-14;  // entries of the rotation's rows that are rounding
+constexpr double kNoMotion = 1e-14;    // entries of the rotation's rows that are rounding
+constexpr double kOnALine = 1e-3;      // second moment of the weights, of that of the faces' extent
+constexpr double kLeastWeight = 0.05;  // of the largest one, where the faces' other nodes count
+
+double coefficient_of(const ProjectedNode& row, int32_t node) {
+  const auto found = row.on.find(node);
+  return found == row.on.end() ? 0.0 : std::abs(found->second);
+}
+
+/// Whether the combined masters lie on a line, or are one node.
+bool is_on_a_line(const ProjectedNode& row, const RowMatrix& nodes) {
+  double weight = 0.0;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const auto& [node, value] : row.on) {
+    weight += std::abs(value);
+    centre += std::abs(value) * nodes.row(node).transpose();
+  }
+  centre /= weight;
+  double extent = 0.0;
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (const int32_t node : row.around) {
+    const Eigen::Vector3d arm = nodes.row(node).transpose() - centre;
+    extent = std::max(extent, arm.squaredNorm());
+    moments += coefficient_of(row, node) * arm * arm.transpose();
+  }
+  return dense::symmetric_eigen(moments).values(1) <= kOnALine * weight * extent;
+}
+
+/// What the rotation of the masters is the mean of: they with their coefficients. Those of
+/// congruent faces lie on a line or at a point, which define none: there the faces' other nodes
+/// count too.
+std::vector<Member> turning_members(const ProjectedNode& row, const RowMatrix& nodes) {
+  const bool widened = is_on_a_line(row, nodes);
+  double largest = 0.0;
+  for (const auto& [node, value] : row.on) largest = std::max(largest, std::abs(value));
+  std::vector<Member> members;
+  for (const int32_t node : row.around) {
+    const double weight =
+        std::max(coefficient_of(row, node), widened ? kLeastWeight * largest : 0.0);
+    if (weight > 0.0)
+      members.push_back({{3 * node, 3 * node + 1, 3 * node + 2, -1, -1, -1},
+                         nodes.row(node).transpose(),
+                         weight});
+  }
+  return members;
+}
 
 }  // namespace
 
@@ -28,12 +75,8 @@ Eigen::Vector3d arm_of(const ProjectedNode& row, const Eigen::Vector3d& at,
 
 PointMotion rotation_rows(const ProjectedNode& row, const Eigen::Vector3d& arm,
                           const RowMatrix& nodes, const std::string& where) {
-  std::vector<Member> members;
-  for (const auto& [node, value] : row.on)
-    members.push_back({{3 * node, 3 * node + 1, 3 * node + 2, -1, -1, -1},
-                       nodes.row(node).transpose(),
-                       std::abs(value)});
-  const Coupling turn = distribute(members, Eigen::Vector3d::Zero(), {3, 4, 5}, where);
+  const Coupling turn =
+      distribute(turning_members(row, nodes), Eigen::Vector3d::Zero(), {3, 4, 5}, where);
   const Eigen::Matrix3d lever = rigid_motion(arm).rightCols<3>();  // theta x arm
   const std::vector<Functional> theta = turn.nodal_rows();
   PointMotion rows;

@@ -20,7 +20,8 @@ void add(double factor, const Functional& of, Functional& to);
 Eigen::Vector3d arm_of(const ProjectedNode& row, const Eigen::Vector3d& at, const RowMatrix& nodes);
 
 /// The part of the motion due to the distance from the combined masters, arm = x_j - sum P_jk x_k:
-/// the masters' common rotation times the arm. So rigid motions are followed exactly across gaps
+/// the masters' common rotation times the arm, of the faces around where they lie on a line, as
+/// those of congruent faces do. So rigid motions are followed exactly across gaps
 /// and on curved faces.
 PointMotion rotation_rows(const ProjectedNode& row, const Eigen::Vector3d& arm,
                           const RowMatrix& nodes, const std::string& where);

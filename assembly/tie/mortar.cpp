@@ -197,6 +197,7 @@ ProjectedNode row_of(int32_t node, const std::map<int32_t, NodeSums>& all) {
     add_share(1.0 - 2.0 * kShift, node, own, row);
     for (const int32_t end : own.ends) add_share(kShift, end, all.at(end), row);
   }
+  for (const auto& [k, value] : row.on) row.around.push_back(k);
   std::erase_if(row.on, [](const auto& entry) { return std::abs(entry.second) < kNoCoefficient; });
   return row;
 }

@@ -28,6 +28,7 @@ namespace clatter::assembly {
 struct ProjectedNode {
   int32_t node = -1;
   std::map<int32_t, double> on;  // master nodes; also untied corners of a tied mid-side node
+  std::vector<int32_t> around;   // these, and the other nodes of their master faces
   double jump = 1.0;  // coefficient of an additional displacement of the slave node (bolt)
 };
 

@@ -132,6 +132,19 @@ distance = 0.002
   EXPECT_LT(hz(5), 1e-3 * hz(6));
 }
 
+TEST(Tie, HardB7_CongruentFacesFollowAcrossAGap) {
+  // Each slave node sees one master node alone, which has no rotation of its own.
+  for (const CellType type : {CellType::kTet4, CellType::kHex8, CellType::kTet10}) {
+    const BuiltModel built =
+        build(two_parts(slab(type, {2, 2, 1}, 0.0), slab(type, {2, 2, 1}, 0.0, 1.04)),
+              "[[tie]]\nname = \"t\"\nslave = \"a_z1\"\nmaster = \"b_z0\"\ndistance = 0.05\n");
+    EXPECT_LT(built.certificate.rigid_recovery_error.value(), 1e-11);
+    EXPECT_LT(built.certificate.rigid_force_residue.value(), 1e-10);
+    const Eigen::VectorXd hz = free_hz(built.model, 8);
+    EXPECT_LT(hz(5), 1e-3 * hz(6));
+  }
+}
+
 TEST(Tie, SlavesBeyondTheMasterStayFree) {
   // The master covers the left half.
   const mesh::Mesh mesh = two_parts(slab(CellType::kTet10, {4, 2, 1}, 0.0),
