@@ -150,7 +150,8 @@ MatrixSpec Resolver::matrix(const recipe::Matrix& matrix, size_t number) {
                                    "triangle row by row",
                                    lower.size(), n, n * (n + 1) / 2));
   MatrixSpec spec{name, where(matrix.source, "matrix " + name), is_mass,
-                  terms_of(matrix.source, "matrix " + name, matrix.terms), Eigen::MatrixXd(n, n)};
+                  terms_of(matrix.source, "matrix " + name, matrix.terms), Eigen::MatrixXd(n, n),
+                  matrix.loss_factor};
   size_t at = 0;
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j <= i; ++j) spec.values(i, j) = spec.values(j, i) = lower[at++];

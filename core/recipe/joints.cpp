@@ -167,8 +167,8 @@ void surface_rows(Rows& key, Tie& tie, bool needs_slave) {
 }
 
 template <class Rows>
-void loss_row(Rows& key, double& loss_factor) {
-  key.number("loss_factor", loss_factor, Range::between(0.0, 10.0),
+auto loss_row(Rows& key, double& loss_factor) {
+  return key.number("loss_factor", loss_factor, Range::between(0.0, 10.0),
              "share of its energy that a cycle loses, over 2 pi");
 }
 
@@ -214,6 +214,7 @@ const Keys<Matrix>& matrix_keys() {
         key.numbers("M", matrix.M, {}, "mass: the lower triangle, row by row [kg, kg m, kg m2]")
             .triangle();
         key.one_of({"K", "M"});
+        loss_row(key, matrix.loss_factor).needs("K");
       });
   return keys;
 }

@@ -166,6 +166,7 @@ struct Matrix {
   std::string name;
   std::vector<Term> terms;   // one per row, without coefficients
   std::vector<double> K, M;  // one of them: lower triangle by rows [N/m, N, N m], [kg, kg m, kg m2]
+  double loss_factor = 0.0;  // of K
 };
 
 /// A section of a beam about its centroid, y and z across it.

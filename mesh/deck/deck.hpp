@@ -128,6 +128,7 @@ struct Spring {
   std::string where;
   double stiffness = 0.0;  // force per length; of rotations moment per angle
   std::vector<Equation::Term> terms;
+  double loss_factor = 0.0;
 };
 
 /// Bar, beam or truss between two nodes or points. The position in the deck is its source.
@@ -149,6 +150,7 @@ struct NodalMatrix {
   bool is_mass = false;
   std::vector<Equation::Term> terms;  // one per row; coefficients are unused
   Eigen::MatrixXd values;             // symmetric
+  double loss_factor = 0.0;           // of a stiffness
 };
 
 /// Displacements fixed at zero, or in a step at a value.

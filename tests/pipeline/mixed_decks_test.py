@@ -73,6 +73,20 @@ class MixedDecks(unittest.TestCase):
         with h5py.File(self.folder / "a.modes.h5") as file:
             return file["frequency_hz"][()]
 
+    def test_the_loss_of_all_stiffness_is_that_of_all_stiffness(self):
+        # Solids, springs of two kinds, a bush and a bar, each with GE = .01, beside PARAM, G.
+        cards = ("PARAM,G,.03\nMAT1,1,210000.,,.3,7.85-9,,,.01\nMAT1,2,70000.,,.3,2.7-9,,,.01\n"
+                 "CELAS2,201,50.,74,1,,,.01\nCELAS1,202,5,75,2,76,2\nPELAS,5,70.,.01\n"
+                 "GRID,900,,5.,5.,60.\nRBE2,950,900,123456,73,79,81\nGRID,901,,25.,5.,60.\nSPC1,7,123456,901\n"
+                 "CBAR,203,6,900,901,0.,1.,0.\nPBARL,6,2,,ROD,,,,,+\n+,2.\nCBUSH,204,8,900,901,,,,0\n"
+                 "PBUSH,8,K,30.,20.,10.,5.,4.,3.,+\n+,,GE,.01\n")
+        self.frequencies(bar_deck(cards), 2)
+        with h5py.File(self.folder / "a.fe.h5") as file:
+            K, loss = ((group["indptr"][()], group["indices"][()], group["data"][()]) for group in (file["K"], file["loss"]))
+        np.testing.assert_array_equal(loss[0], K[0])
+        np.testing.assert_array_equal(loss[1], K[1])
+        np.testing.assert_allclose(loss[2], 0.04 * K[2], rtol=0, atol=1e-12 * abs(K[2]).max())
+
     def test_masses_and_springs_need_no_solid_and_no_material(self):
         # A wall, 3 N/mm, 2e-3 t, 3 N/mm, 1e-3 t.
         found = self.frequencies("SOL 103\nCEND\nMETHOD=1\nSPC=7\nBEGIN BULK\nEIGRL,1,,,2\nGRID,1\nGRID,2,,10.,0.,0.\nGRID,3,,20.,0.,0.\n"

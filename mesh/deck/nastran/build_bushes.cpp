@@ -20,8 +20,8 @@ constexpr double kCoincident = 1e-12;  // of the coordinates
 
 class Bush {
  public:
-  Bush(Model& model, const RawBush& raw, const std::array<double, 6>& stiffness)
-      : model_(model), raw_(raw), stiffness_(stiffness) {
+  Bush(Model& model, const RawBush& raw, const RawBushProperty& property)
+      : model_(model), raw_(raw), stiffness_(property.stiffness), loss_(property.loss_factors) {
     ends_ = {model.require(raw.grids[0], raw.origin)};
     if (raw.grids[1] != 0) ends_.push_back(model.require(raw.grids[1], raw.origin));
     for (const NodeIndex end : ends_) at_.push_back(model.node_map.position(end));
@@ -40,7 +40,7 @@ class Bush {
         left_out = true;
         continue;
       }
-      Spring spring{model_.source.where(raw_.origin), stiffness, {}};
+      Spring spring{model_.source.where(raw_.origin), stiffness, {}, loss_[k]};
       for (size_t end = 0; end < ends_.size(); ++end)
         add_end(end, k, axes.col(k % 3), centre, spring);
       model_.deck.springs.push_back(std::move(spring));
@@ -111,7 +111,7 @@ class Bush {
 
   Model& model_;
   const RawBush& raw_;
-  const std::array<double, 6>& stiffness_;
+  const std::array<double, 6>&stiffness_, &loss_;
   std::vector<NodeIndex> ends_;
   std::vector<Vector3d> at_;
 };
@@ -133,19 +133,31 @@ struct GapCount {
 
 void add_gap(Model& model, const RawBush& raw, GapCount& count) {
   const RawGapProperty& gap = property_of(model, raw, model.raw.gap_properties);
-  Bush(model, raw, {gap.along, gap.across, gap.across, 0.0, 0.0, 0.0}).build();
+  Bush(model, raw, {raw.origin, {gap.along, gap.across, gap.across}, {}}).build();
   if (count.closed + count.open == 0) count.origin = raw.origin;
   ++(gap.is_open ? count.open : count.closed);
 }
 
 }  // namespace
 
+// MSC Nastran Quick Reference Guide, PBUSH, remark 5: where all cards give GE1 alone, it counts for
+// all six.
+void spread_single_losses(RawDeck& raw) {
+  for (const auto& [id, property] : raw.bush_properties)
+    if (std::any_of(property.loss_factors.begin() + 1, property.loss_factors.end(),
+                    [](double loss) { return loss != 0.0; }))
+      return;
+  for (auto& [id, property] : raw.bush_properties)
+    property.loss_factors.fill(property.loss_factors[0]);
+}
+
 void build_bushes(Model& model) {
+  spread_single_losses(model.raw);
   GapCount gaps;
   for (const RawBush& raw : model.raw.bushes) {
     model.refusals.attempt([&] {
       if (raw.is_gap) return add_gap(model, raw, gaps);
-      Bush(model, raw, property_of(model, raw, model.raw.bush_properties).stiffness).build();
+      Bush(model, raw, property_of(model, raw, model.raw.bush_properties)).build();
     });
   }
   if (gaps.closed + gaps.open > 0)

@@ -109,23 +109,32 @@ class ShellProperties {
 
   void add_layers(int32_t property, const RawShell& raw, recipe::Shell& shell) {
     for (const RawPly& ply : raw.plies) {
-      shell.layers.push_back({shell.source, use(property, raw, ply.material), ply.thickness,
-                              ply.angle * std::numbers::pi / 180.0});
-      take_reference(raw, property, shell.layers.back().material);
+      shell.layers.push_back({shell.source, ply_material(property, raw, ply.material),
+                              ply.thickness, ply.angle * std::numbers::pi / 180.0});
     }
   }
 
-  /// TREF of a PCOMP counts, not that of its materials.
-  void take_reference(const RawShell& raw, int32_t property, const std::string& name) {
-    double& reference = model_.deck.materials.at(name).reference_temperature;
-    const bool is_shared = std::ranges::any_of(
-        model_.deck.regions, [&](const Region& region) { return region.material == name; });
-    if (is_shared && reference != raw.reference_temperature)
-      model_.source.fail(
-          raw.origin, fmt::format("{} {}: found TREF = {}, expected {} as that of {}, which "
-                                  "other properties have too",
-                                  raw.card, property, raw.reference_temperature, reference, name));
-    reference = raw.reference_temperature;
+  /// TREF of a PCOMP counts, not that of its materials, and its GE where it has one: a material of
+  /// its own where they differ. Nastran takes 0 for a blank GE; damping layers keep theirs.
+  std::string ply_material(int32_t property, const RawShell& raw, int32_t id) {
+    std::map<std::string, Material>& materials = model_.deck.materials;
+    const size_t known = materials.size();
+    const std::string name = use(property, raw, id);
+    const bool is_new = materials.size() > known;
+    const Material& plain = materials.at(name);
+    const double loss = raw.loss_factor.value_or(plain.loss_factor);
+    if (!raw.loss_factor && loss != 0.0 && with_losses_.insert(property).second)
+      model_.deck.notes.push_back(fmt::format(
+          "{}: {} {}: GE of its materials counts; Nastran takes 0 where its own GE is blank",
+          model_.source.where(raw.origin), raw.card, property));
+    if (raw.reference_temperature == plain.reference_temperature && loss == plain.loss_factor)
+      return name;
+    Material material = plain;
+    material.name = fmt::format("{}_of_{}", name, property);
+    material.reference_temperature = raw.reference_temperature;
+    material.loss_factor = loss;
+    if (is_new) materials.erase(name);  // nothing has it as it is
+    return materials.insert_or_assign(material.name, material).first->first;
   }
 
   bool are_alike(const RawShell& raw) const {
@@ -163,6 +172,7 @@ class ShellProperties {
   Model& model_;
   std::map<int32_t, int32_t> regions_;  // by property; -1: refused
   std::set<int32_t> soft_;              // MAT8 that are noted
+  std::set<int32_t> with_losses_;       // laminates that are noted
   int64_t without_shear_ = 0;
   Origin first_without_shear_ = 0;
 };

@@ -7,13 +7,20 @@
 namespace clatter::mesh::deck::nastran {
 namespace {
 
-double value_of(const Model& model, const RawSpring& raw) {
-  if (raw.property == 0) return raw.value;
-  const auto& values = raw.is_mass ? model.raw.scalar_masses : model.raw.spring_stiffness;
-  const auto found = values.find(raw.property);
-  if (found != values.end()) return found->second;
-  model.source.fail(raw.origin,
-                    fmt::format("found no {} {}", raw.is_mass ? "PMASS" : "PELAS", raw.property));
+template <class Property>
+Property property_of(const Model& model, const RawSpring& raw,
+                     const std::map<int32_t, Property>& all, const char* card) {
+  if (const auto found = all.find(raw.property); found != all.end()) return found->second;
+  model.source.fail(raw.origin, fmt::format("found no {} {}", card, raw.property));
+}
+
+RawSpringProperty stiffness_of(const Model& model, const RawSpring& raw) {
+  if (raw.property == 0) return {raw.value, raw.loss_factor};
+  return property_of(model, raw, model.raw.spring_properties, "PELAS");
+}
+
+double mass_of(const Model& model, const RawSpring& raw) {
+  return raw.property == 0 ? raw.value : property_of(model, raw, model.raw.scalar_masses, "PMASS");
 }
 
 // u_1 - u_2, along the directions of the ends.
@@ -46,17 +53,18 @@ std::vector<Equation::Term> elongation_of(Model& model, const RawSpring& raw) {
 void add(Model& model, const RawSpring& raw) {
   const std::vector<Equation::Term> terms = elongation_of(model, raw);
   const std::string where = model.source.where(raw.origin);
-  const double value = value_of(model, raw);
   if (!raw.is_mass) {
-    model.deck.springs.push_back({where, value, terms});
+    const RawSpringProperty spring = stiffness_of(model, raw);
+    model.deck.springs.push_back({where, spring.stiffness, terms, spring.loss_factor});
     return;
   }
+  const double mass = mass_of(model, raw);
   Eigen::VectorXd c(static_cast<Eigen::Index>(terms.size()));
   for (Eigen::Index i = 0; i < c.size(); ++i) c(i) = terms[i].coefficient;
   model.spend(16 * c.size() * c.size(), raw.origin);
   model.deck.matrices.push_back({fmt::format("cmass_{}", model.deck.matrices.size() + 1), where,
                                  true, terms,
-                                 model.raw.control.mass_factor * value * c * c.transpose()});
+                                 model.raw.control.mass_factor * mass * c * c.transpose()});
 }
 
 }  // namespace

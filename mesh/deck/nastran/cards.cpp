@@ -242,16 +242,15 @@ constexpr std::array kRoles = {
     passes("OMIT1", kSuper),
     passes("PANEL", kOutput),
     Role{"PARAM", Fate::kRead, nullptr, 8, 0, 0,
-         "WTMASS, COUPMASS, CK2, CM2, INREL; ALPHA1 and ALPHA2 are offered as damping; others are "
-         "passed "
-         "over"},
+         "WTMASS, COUPMASS, CK2, CM2, INREL, G; ALPHA1 and ALPHA2 are offered as damping; others "
+         "are passed over"},
     reads("PBAR", read_pbar, 24, kBeamSection),
     reads("PBARL", read_pbarl, 0, kBeamSection),
     passes("PBCOMP", kUnused),
     reads("PBEAM", read_pbeam, 0, kBeamSection),
     reads("PBEAML", read_pbeaml, 0, kBeamSection),
     passes("PBEND", kUnused),
-    reads("PBUSH", read_pbush, 0, "stiffness of bushes"),
+    reads("PBUSH", read_pbush, 0, "stiffness and loss factors of bushes"),
     passes("PBUSHT", kDynamic),
     reads("PCOMP", read_pshell, 0, kLayers),
     reads("PCOMPG", read_pshell, 0, kLayers),
@@ -259,7 +258,7 @@ constexpr std::array kRoles = {
     passes("PDAMP", kDampers),
     passes("PDAMP5", kDampers),
     passes("PDAMPT", kDampers),
-    reads("PELAS", read_pelas, 8, "stiffness of springs"),
+    reads("PELAS", read_pelas, 8, "stiffness and loss factor of springs"),
     passes("PELAST", kDynamic),
     passes("PFAST", kUnused),
     reads("PGAP", read_pgap, 0, "stiffness of gaps"),

@@ -365,6 +365,11 @@ bool read_parameter(Control& control, std::string_view name, std::string_view va
     control.mass_damping = number();
   } else if (name == "ALPHA2") {
     control.stiffness_damping = number();
+  } else if (name == "G") {
+    control.loss_factor = number();
+    if (!(control.loss_factor >= 0.0))
+      source.fail(origin, fmt::format("PARAM G: found {}, expected a loss factor of 0 or more",
+                                      shown(value)));
   } else if (name == "INREL") {
     control.inertia_relief = number() != 0.0;
   } else {

@@ -40,6 +40,7 @@ struct Control {
   double mass_factor = 1.0;                                        // PARAM, WTMASS
   bool coupled_mass = false;                                       // PARAM, COUPMASS
   double mass_damping = 0.0, stiffness_damping = 0.0;              // PARAM, ALPHA1 and ALPHA2
+  double loss_factor = 0.0;                                        // PARAM, G
   bool inertia_relief = false;                                     // PARAM, INREL
   std::vector<Subcase> subcases;                                   // one at least when has_cases
 };

@@ -182,6 +182,16 @@ void take_damping(Model& model) {
   if (control.mass_damping != 0.0 || control.stiffness_damping != 0.0)
     model.deck.damping.push_back({model.source.files().front(), "PARAM, ALPHA1 and ALPHA2",
                                   control.mass_damping, control.stiffness_damping});
+  const double loss = control.loss_factor;
+  if (loss == 0.0) return;
+  Deck& deck = model.deck;
+  for (auto& [name, material] : deck.materials) material.loss_factor += loss;
+  for (Spring& spring : deck.springs) spring.loss_factor += loss;
+  for (Beam& beam : deck.beams) beam.loss_factor += loss;
+  for (NodalMatrix& matrix : deck.matrices) matrix.loss_factor += matrix.is_mass ? 0.0 : loss;
+  deck.notes.push_back(
+      fmt::format("{}: PARAM, G: {:g} is added to the loss factors of all stiffness",
+                  model.source.files().front(), loss));
 }
 
 void note_solution(Model& model) {

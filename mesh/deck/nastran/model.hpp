@@ -173,9 +173,9 @@ std::vector<Equation::Term> terms_along(Model& model, NodeIndex node_index, int 
 void count_unused(Model& model);
 /// Lumped without PARAM, COUPMASS, as Nastran has it.
 void choose_mass(Model& model);
-/// Damping of springs is passed over.
+/// Damping of bushes by velocity is passed over.
 void pass_damping(Model& model);
-/// PARAM, ALPHA1 and ALPHA2, for the recipe to offer.
+/// PARAM, ALPHA1 and ALPHA2, for the recipe to offer; G, the loss factor of all stiffness.
 void take_damping(Model& model);
 /// A remark: what the solution changes.
 void note_solution(Model& model);

@@ -144,6 +144,7 @@ struct RawSpring {  // CELAS1 to CELAS4, CMASS1 to CMASS4
   bool is_mass = false;
   int32_t property = 0;   // PELAS or PMASS; 0: own value
   double value = 0.0;     // stiffness or mass
+  double loss_factor = 0.0;  // GE of own value
   std::vector<End> ends;  // one: against the ground
 };
 
@@ -163,6 +164,11 @@ struct RawBush {  // CBUSH, CGAP
 struct RawBushProperty {  // PBUSH
   Origin origin = 0;
   std::array<double, 6> stiffness{};
+  std::array<double, 6> loss_factors{};  // GE1 to GE6; GE1 alone may count for all
+};
+
+struct RawSpringProperty {  // PELAS
+  double stiffness = 0.0, loss_factor = 0.0;
 };
 
 struct RawGapProperty {  // PGAP
@@ -337,7 +343,7 @@ struct RawDeck {
   std::vector<RawMass> masses;
   std::vector<RawMassMatrix> mass_matrices;
   std::vector<RawSpring> springs;              // and scalar masses
-  std::map<int32_t, double> spring_stiffness;  // PELAS
+  std::map<int32_t, RawSpringProperty> spring_properties;
   std::map<int32_t, double> scalar_masses;     // PMASS
   std::vector<RawBar> bars;
   std::optional<RawBar> bar_default, beam_default;  // BAROR, BEAMOR
@@ -364,7 +370,7 @@ struct RawDeck {
     Origin origin = 0;
     int64_t count = 0;
   };
-  std::map<std::string, Damping> damping;  // fields of springs, which are passed over
+  std::map<std::string, Damping> damping;  // of bushes, which is passed over
 
   void count_damping(const std::string& field, Origin origin) {
     ++damping.try_emplace(field, Damping{origin, 0}).first->second.count;

@@ -3,6 +3,7 @@
 // Cards of two-dimensional cells and their properties as they are in the deck.
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,7 @@ struct RawShell {  // PSHELL, PCOMP, PCOMPG
   std::vector<RawPly> plies;           // of PCOMP and PCOMPG
   double bottom = 0.0;                 // Z0
   double reference_temperature = 0.0;  // TREF
+  std::optional<double> loss_factor;   // GE of PCOMP and PCOMPG
 };
 
 }  // namespace clatter::mesh::deck::nastran

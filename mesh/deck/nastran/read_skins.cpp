@@ -101,6 +101,9 @@ void take_layers(const Card& card, RawShell& shell) {
   shell.bottom = card.number_or(1, "Z0", -0.5 * shell.thickness);
   shell.area_mass = card.number_or(2, "NSM", 0.0);
   shell.reference_temperature = card.number_or(5, "TREF", 0.0);
+  if (card.blank(6)) return;
+  shell.loss_factor = card.number(6, "GE");
+  if (!(*shell.loss_factor >= 0.0)) card.fail_expected(6, "GE", "a loss factor of 0 or more");
 }
 
 }  // namespace

@@ -2,17 +2,14 @@
 // Cards of springs, scalar masses and bushes.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 
 #include "mesh/deck/nastran/cards.hpp"
 
 namespace clatter::mesh::deck::nastran {
 namespace {
-
-// Damping changes no stiffness.
-void pass_damping(const Card& card, size_t i, RawDeck& raw) {
-  if (card.number_or(i, "GE", 0.0) != 0.0) raw.count_damping("GE", card.origin());
-}
 
 bool is_mass(const Card& card) { return card.name().starts_with("CMASS"); }
 
@@ -73,6 +70,26 @@ double value_of(const Card& card, size_t i, bool mass) {
   return value;
 }
 
+double loss_factor_of(const Card& card, size_t i) {
+  const double value = card.number_or(i, "GE", 0.0);
+  if (!(value >= 0.0)) card.fail_expected(i, "GE", "a loss factor of 0 or more");
+  return value;
+}
+
+// Rows of K and GE count; those of other damping, stress recovery (RCV) and temperature (T) change
+// no stiffness.
+void check_bush_row(const Card& card, size_t i, std::string_view row) {
+  constexpr std::array<std::string_view, 6> kRows = {"K", "B", "GE", "M", "RCV", "T"};
+  if (row == "KMAG" || row == "ANGLE")
+    card.fail(i, fmt::format("{} is not supported, expected K = KMAG cos(ANGLE) and GE = "
+                             "tan(ANGLE)",
+                             row));
+  if (std::ranges::find(kRows, row) == kRows.end())
+    card.fail_expected(i, "field 3", "K, B, GE, M, RCV or T");
+  if (row == "M" && !card.blank_from(i + 1))
+    card.fail(i, "the mass of a bush (M) is not supported, expected a CONM2");
+}
+
 }  // namespace
 
 void read_celas1(const Card& card, RawDeck& raw) {
@@ -88,7 +105,7 @@ void read_celas2(const Card& card, RawDeck& raw) {
   if (spring.is_mass) {
     card.at_most(6);
   } else {
-    pass_damping(card, 6, raw);
+    spring.loss_factor = loss_factor_of(card, 6);
   }
   raw.springs.push_back(std::move(spring));
 }
@@ -109,8 +126,8 @@ void read_pelas(const Card& card, RawDeck& raw) {
   for (const size_t i : {size_t{0}, size_t{4}}) {
     if (i > 0 && card.blank_from(i)) break;
     const int32_t property = card.id(i, "PID");
-    pass_damping(card, i + 2, raw);
-    if (!raw.spring_stiffness.emplace(property, value_of(card, i + 1, false)).second) {
+    const RawSpringProperty spring{value_of(card, i + 1, false), loss_factor_of(card, i + 2)};
+    if (!raw.spring_properties.emplace(property, spring).second) {
       card.fail(i, fmt::format("found a second PELAS {}", property));
     }
   }
@@ -177,26 +194,27 @@ void read_pgap(const Card& card, RawDeck& raw) {
     card.fail(0, fmt::format("found a second PGAP {}", id));
 }
 
-// Rows of a word and up to six numbers; those of K count.
+// Rows of a word and up to six numbers.
 void read_pbush(const Card& card, RawDeck& raw) {
   const int32_t id = card.id(0, "PID");
   RawBushProperty property;
   property.origin = card.origin();
-  bool stiff = true;
+  std::string_view row = "K";
   for (size_t line = 0; line < card.size(); line += 8) {
     if (line > 0 && !card.blank(line)) card.fail_expected(line, "field 2", "a blank field");
     const std::string_view word = card.text(line + 1);
-    if (!word.empty()) stiff = word == "K";
-    if (word == "M" && !card.blank_from(line + 2))
-      card.fail(line + 1, "the mass of a bush (M) is not supported, expected a CONM2");
-    for (size_t k = 0; k < 6 && stiff; ++k) {
-      if (card.blank(line + 2 + k)) continue;
-      property.stiffness[k] = card.number(line + 2 + k, "K");
-      if (!(property.stiffness[k] >= 0.0))
-        card.fail_expected(line + 2 + k, "K", "a stiffness of 0 or more");
+    if (!word.empty()) row = word;
+    check_bush_row(card, line + 1, row);
+    for (size_t i = line + 2; i < line + 8; ++i) {
+      if (row == "GE") property.loss_factors[i - line - 2] = loss_factor_of(card, i);
+      if (row != "K" || card.blank(i)) continue;
+      if (card.text(i) == "RIGID")
+        card.fail(i, "RIGID is not supported, expected a stiffness, or an RBE2 for the CBUSH");
+      property.stiffness[i - line - 2] = card.number(i, "K");
+      if (!(property.stiffness[i - line - 2] >= 0.0))
+        card.fail_expected(i, "K", "a stiffness of 0 or more");
     }
-    if (!stiff && (word == "B" || word == "GE"))
-      raw.count_damping("PBUSH " + std::string(word), card.origin());
+    if (word == "B") raw.count_damping("PBUSH B", card.origin());
   }
   if (!raw.bush_properties.emplace(id, property).second) {
     card.fail(0, fmt::format("found a second PBUSH {}", id));

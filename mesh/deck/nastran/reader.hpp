@@ -43,9 +43,8 @@
 //   BGSET BSURFS          ties "bgset_5_1" of surfaces "bsurfs_5"
 //   EIGRL EIGR            Step::modes
 //   PARAM                 WTMASS scales densities and masses, COUPMASS chooses Deck::mass, CK2 and
-//   CM2
-//                         scale DMIG; ALPHA1 and ALPHA2 are offered as damping; other
-//                         parameters are passed over
+//                         CM2 scale DMIG; G adds to all loss factors; ALPHA1 and ALPHA2 are
+//                         offered as damping; other parameters are passed over
 //
 // Directions of supports, equations and couplings are those of each grid's CD. A case control alone
 // chooses SPC and MPC sets; without one the deck must have at most one of each. Of a deck with

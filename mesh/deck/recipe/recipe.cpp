@@ -43,7 +43,8 @@ class RecipeMaker {
     for (const Equation& equation : deck_.equations)
       file_.equations.push_back({Source(equation.where), terms(equation.terms)});
     for (const Spring& spring : deck_.springs)
-      file_.springs.push_back({Source(spring.where), "", spring.stiffness, terms(spring.terms)});
+      file_.springs.push_back({Source(spring.where), "", spring.stiffness, terms(spring.terms),
+                               spring.loss_factor});
     for (const Beam& beam : deck_.beams) {
       file_.beams.push_back(beam);
       file_.beams.back().points = {names_.reference(beam.ends[0]), names_.reference(beam.ends[1])};
@@ -171,6 +172,7 @@ class RecipeMaker {
     out.source = Source(matrix.where);
     out.name = matrix.name;
     out.terms = terms(matrix.terms, false);
+    out.loss_factor = matrix.loss_factor;
     for (Eigen::Index i = 0; i < matrix.values.rows(); ++i)
       for (Eigen::Index j = 0; j <= i; ++j)
         (matrix.is_mass ? out.M : out.K).push_back(matrix.values(i, j));

@@ -159,14 +159,15 @@ TEST(NastranShells, LayersAreThoseOfPcomp) {
   auto deck = read_deck(cells + "PCOMP,2,-.3,7.,,,50.,,SYM,+\n+,8,.1,45.,YES,,,-45.,,+\n+,1,.2\n");
   const recipe::Shell& shell = deck.shells.at(0);
   ASSERT_EQ(shell.layers.size(), 6u);
-  EXPECT_EQ(shell.layers[1].material, "mat_8");
+  EXPECT_EQ(shell.layers[1].material, "mat_8_of_2");
   EXPECT_EQ(shell.layers[1].thickness, 0.1);
   EXPECT_DOUBLE_EQ(shell.layers[1].angle, -std::numbers::pi / 4.0);
-  EXPECT_EQ(shell.layers[3].material, "mat_1");
+  EXPECT_EQ(shell.layers[3].material, "mat_1_of_2");
   EXPECT_DOUBLE_EQ(shell.layers[5].angle, std::numbers::pi / 4.0);
   EXPECT_DOUBLE_EQ(shell.thickness(), 0.8);
   EXPECT_EQ(shell.section.area_mass, 7.0);
-  EXPECT_EQ(deck.materials.at("mat_8").reference_temperature, 50.0);
+  EXPECT_EQ(deck.materials.at("mat_8_of_2").reference_temperature, 50.0);
+  EXPECT_EQ(deck.materials.size(), 2u);
   EXPECT_THAT(notes_of(deck), HasSubstr("G1Z or G2Z of MAT8 8 is blank"));
   // Triangles first. Z0 + t/2, and ZOFFS beside it.
   const mesh::ShellBlock &triangle = deck.mesh.shells.at(0), &quad = deck.mesh.shells.at(1);
@@ -176,13 +177,29 @@ TEST(NastranShells, LayersAreThoseOfPcomp) {
   EXPECT_TRUE(quad.axis.row(0).isApprox(Eigen::RowVector3d(std::sqrt(0.75), 0.5, 0.0), 1e-15));
   EXPECT_EQ(quad.thickness.size(), 0);
   const recipe::File file = mesh::deck::recipe_of(deck).file;
-  EXPECT_THAT(file.shells.at(0).layers.at(2).material, "mat_1");
-  EXPECT_TRUE(file.materials.at("mat_1").regions.empty());
+  EXPECT_THAT(file.shells.at(0).layers.at(2).material, "mat_1_of_2");
+  EXPECT_TRUE(file.materials.at("mat_1_of_2").regions.empty());
   const auto global = read_deck(cells + "PCOMPG,2,,,,,,,,+\n+,101,8,.1,45.,YES,,,,+\n+,102,1,.3\n");
   EXPECT_EQ(global.shells.at(0).layers.size(), 2u);
   EXPECT_EQ(global.shells.at(0).layers[1].thickness, 0.3);
   EXPECT_EQ(global.shells.at(0).layers[1].angle, 0.0);
   EXPECT_EQ(global.mesh.shells.at(0).offset.size(), 0);
+}
+
+TEST(NastranShells, TemperatureAndLossOfALaminateAreItsOwn) {
+  const std::string cells = kSheetGrids +
+                            "MAT1,1,200.,,.25,,,20.,.1\nCQUAD4,11,2,1,2,5,4\n"
+                            "CQUAD4,12,3,2,5,6,3\nPCOMP,2,,,,,20.,,,+\n+,1,.1\n";
+  const auto deck = read_deck(cells + "PCOMP,3,,,,,50.,.3,,+\n+,1,.1\n");
+  const mesh::deck::Material &plain = deck.materials.at("mat_1"),
+                             &own = deck.materials.at("mat_1_of_3");
+  EXPECT_EQ(deck.shells.at(0).layers.at(0).material, "mat_1");
+  EXPECT_EQ(plain.reference_temperature, 20.0);
+  EXPECT_EQ(plain.loss_factor, 0.1);
+  EXPECT_EQ(own.reference_temperature, 50.0);
+  EXPECT_EQ(own.loss_factor, 0.3);
+  EXPECT_THAT(notes_of(deck), HasSubstr("PCOMP 2: GE of its materials counts"));
+  EXPECT_THAT(refusal(cells + "PCOMP,3,,,,,,-.3,,+\n+,1,.1\n"), HasSubstr("a loss factor of 0"));
 }
 
 TEST(NastranShells, AWallBetweenTwoSolidsIsNoSkin) {

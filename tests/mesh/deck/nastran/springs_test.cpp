@@ -46,12 +46,31 @@ TEST(NastranSpring, ActsInTheDisplacementSystemOfItsGrid) {
 TEST(NastranSpring, WithoutMeaningIsRefusedByLine) {
   EXPECT_THAT(refusal(kTet + "CELAS1,12,3,2,3\n"), HasSubstr("t.bdf:8: found no PELAS 3"));
   EXPECT_THAT(refusal(kTet + "CELAS2,12,-1.,2,3\n"), HasSubstr("t.bdf:8: CELAS2"));
-  EXPECT_THAT(read_deck(kTet + "CELAS2,12,1.,2,3,,,.05\nENDDATA\n").passed,
-              HasSubstr("damping: GE"));
+  EXPECT_THAT(refusal(kTet + "CELAS2,12,1.,2,3,,,-.05\n"), HasSubstr("a loss factor of 0 or more"));
   EXPECT_THAT(refusal(kTet + "CELAS2,12,1.,2,4\n"), HasSubstr("rotation of node 2 of solids"));
   EXPECT_THAT(refusal(kTet + "CELAS2,12,1.\n"), HasSubstr("t.bdf:8: CELAS2"));
   EXPECT_THAT(refusal(kTet + "GRID,9,,3.,4.,5.\nCELAS2,12,1.,9,4,2,1\n"),
               HasSubstr("rotation against a displacement"));
+}
+
+std::vector<double> losses_of(const Deck& deck) {
+  std::vector<double> losses;
+  for (const mesh::deck::Spring& spring : deck.springs) losses.push_back(spring.loss_factor);
+  return losses;
+}
+
+TEST(NastranSpring, HasTheLossFactorOfItsCardOrProperty) {
+  const std::string springs =
+      "CELAS2,11,7.5,2,1,,,.05\nCELAS1,12,3,2,3\nCELAS1,13,4,3,3\nPELAS,3,8.5,.1,,4,9.5\n";
+  EXPECT_THAT(losses_of(read_deck(kTet + springs)), testing::ElementsAre(.05, .1, 0.0));
+}
+
+TEST(NastranSpring, HasTheLossFactorOfAllStiffnessBesideItsOwn) {
+  const Deck deck = read_deck(kTet + "PARAM,G,.02\nCELAS2,11,7.5,2,1,,,.05\nENDDATA\n");
+  EXPECT_THAT(losses_of(deck), testing::ElementsAre(testing::DoubleEq(.07)));
+  EXPECT_EQ(deck.materials.at("mat_1").loss_factor, .02);
+  EXPECT_THAT(deck.notes, testing::Contains(HasSubstr("PARAM, G: 0.02 is added to the loss")));
+  EXPECT_THAT(refusal(kTet + "PARAM,G,-.02\n"), HasSubstr("PARAM G: found '-.02', expected a loss"));
 }
 
 // Two points 2 apart along z: the springs are in the middle.
@@ -88,6 +107,23 @@ TEST(NastranBush, OfOneGridOrCoincidentOnesHasASystem) {
               HasSubstr("found no orientation beside its axis"));
   EXPECT_EQ(refusal(kTet + kTwo + "CBUSH,7,8,9,10\nPBUSH,8,K,10.,,,10.\n"), "");
   EXPECT_THAT(refusal(kTet + kTwo + "CBUSH,7,8,9,10\n"), HasSubstr("CBUSH 7: found no PBUSH 8"));
+}
+
+TEST(NastranBush, HasLossFactorsByAxisWhereOneCardNamesSeveral) {
+  const std::string bushes = kTet + kTwo + "CBUSH,7,8,9,10,,,,0\nPBUSH,8,K,10.,20.,,,40.,,+\n";
+  EXPECT_THAT(losses_of(read_deck(bushes + "+,,GE,.1\n")), testing::ElementsAre(.1, .1, .1));
+  EXPECT_THAT(losses_of(read_deck(bushes + "+,,GE,.1,,,,.3\n")), testing::ElementsAre(.1, 0., .3));
+  EXPECT_THAT(losses_of(read_deck(bushes + "+,,GE,.1\nPBUSH,9,K,1.,,,,,,+\n+,,GE,,.2\n")),
+              testing::ElementsAre(.1, 0., 0.));
+  EXPECT_THAT(read_deck(bushes + "+,,B,3.\n").passed, HasSubstr("damping: PBUSH B"));
+}
+
+TEST(NastranBush, OfRowsThatAreNotReadIsRefused) {
+  const std::string bush = kTet + kTwo + "CBUSH,7,8,9,10,,,,0\n";
+  EXPECT_THAT(refusal(bush + "PBUSH,8,KMAG,10.\n"), HasSubstr("expected K = KMAG cos(ANGLE)"));
+  EXPECT_THAT(refusal(bush + "PBUSH,8,KK,10.\n"), HasSubstr("found 'KK', expected K, B, GE"));
+  EXPECT_THAT(refusal(bush + "PBUSH,8,K,RIGID\n"), HasSubstr("or an RBE2 for the CBUSH"));
+  EXPECT_THAT(refusal(bush + "PBUSH,8,K,1.,,,,,,+\n+,,M,1.\n"), HasSubstr("expected a CONM2"));
 }
 
 TEST(NastranBush, LeavesOutRotationsOfSolidsAndSaysSo) {
