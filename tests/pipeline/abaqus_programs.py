@@ -569,6 +569,10 @@ add("rectangular_transform", B, by_hand(static("*CLOAD\nTOP, 2, 5.\n"), "*TRANSF
     by_hand(static(f"*CLOAD\nTOP, 1, {-5 / math.sqrt(2)!r}\nTOP, 2, {5 / math.sqrt(2)!r}\n")), U)
 SPRING_2 = by_hand(model="*ELEMENT, TYPE=SPRING2, ELSET=S\n900, 73, 21\n*SPRING, ELSET=S\n1, 1\n4000.\n")
 add("springs_between_nodes", B, SPRING_2, SPRING_2)
+ORIENTED = by_hand(model="*ORIENTATION, NAME=O\n1., 2., .5, -2., 1., 0.\n"
+                         "*ELEMENT, TYPE=SPRING1, ELSET=R\n900, 77\n*SPRING, ELSET=R, ORIENTATION=O\n1\n4000.\n"
+                         "*ELEMENT, TYPE=SPRING2, ELSET=S\n901, 73, 21\n*SPRING, ELSET=S, ORIENTATION=O\n2, 3\n3000.\n")
+add("springs_along_an_orientation", B, ORIENTED, ORIENTED)
 add("supports_in_the_step", B, by_hand(FREQUENCY.replace("*FREQUENCY\n4\n", "*FREQUENCY\n4\n" + HELD), held=""), BAR)
 add("op_new", B, by_hand(static("*CLOAD, OP=NEW\nTOP, 1, 2.\nTOP, 3, -1.\n*BOUNDARY, OP=NEW\nFOOT, 1, 3\n")), SKEW, U)
 add("linear_mpc", B, by_hand(model="*MPC\nLINEAR, 74, 73, 75\n"),

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// B31, B32 with *BEAM SECTION and T3D2, T3D3 with *SOLID SECTION: beams and trusses.
+// B31, B32 with *BEAM SECTION or *BEAM GENERAL SECTION and T3D2, T3D3 with *SOLID SECTION: beams
+// and trusses.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <utility>
 
 #include "mesh/deck/abaqus/model.hpp"
 #include "mesh/deck/bar_shapes.hpp"
@@ -10,45 +13,98 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-/// A section of *BEAM SECTION; local 1 is y, 2 is z. Shear factors are those of Abaqus.
+/// A section of *BEAM SECTION or *BEAM GENERAL SECTION; local 1 is y, 2 is z. Shear factors are
+/// those of Abaqus.
 struct Shape {
   BeamSection section;
   double shear_factor;
 };
 
+/// The first line of a section's card.
+class Dimensions {
+ public:
+  Dimensions(const Card& card, const Source& source)
+      : card_(card), source_(source), fields_(card.line(0, source)) {}
+
+  [[noreturn]] void fail(const std::string& message) const {
+    source_.fail(card_.origin(), fmt::format("{}: {}", card_.keyword().name, message));
+  }
+
+  double positive(size_t i) const {
+    const double value = fields_.number(i, "dimension");
+    if (!(value > 0.0)) fail(fmt::format("found a dimension of {}, expected more than 0", value));
+    return value;
+  }
+
+  double any(size_t i) const { return fields_.number_or(i, "dimension", 0.0); }
+
+ private:
+  const Card& card_;
+  const Source& source_;
+  Fields fields_;
+};
+
+Shape box_of(const Dimensions& of) {
+  const double t1 = of.positive(2), t2 = of.positive(3);
+  if (of.positive(4) != t1 || of.positive(5) != t2)
+    of.fail("found a BOX of unequal opposite walls, expected t1 = t3 and t2 = t4");
+  return {box_section(of.positive(0), of.positive(1), t1, t2), 0.44};
+}
+
+/// l, h, b1, b2, t1, t2, t3: the height is along local 2, at l above the lower edge are the nodes.
+Shape i_of(const Dimensions& of) {
+  const IShape shape{of.positive(1), of.positive(2), of.positive(3),
+                     of.positive(6), of.positive(4), of.positive(5)};
+  const double web = shape.height - shape.t_below - shape.t_above;
+  if (!(web > 0.0)) of.fail("its flanges leave no web");
+  const double below = shape.below * shape.t_below, above = shape.above * shape.t_above;
+  const double centroid =
+      (below * 0.5 * shape.t_below + above * (shape.height - 0.5 * shape.t_above) +
+       web * shape.web * (shape.t_below + 0.5 * web)) /
+      (below + above + web * shape.web);
+  if (std::abs(of.any(0) - centroid) > 1e-6 * shape.height)
+    of.fail(
+        fmt::format("found nodes at {:g} of the height of an I, expected its centroid at {:g}: "
+                    "an offset is not read",
+                    of.any(0), centroid));
+  BeamSection section = i_section(shape);
+  std::swap(section.I1, section.I2);
+  return {section, 0.44};
+}
+
+/// A, I11, I12, I22, J: moments of inertia for bending about local 1 and 2.
+Shape general_of(const Dimensions& of) {
+  return {{.area = of.positive(0),
+           .I1 = of.positive(3),
+           .I2 = of.positive(1),
+           .I12 = of.any(2),
+           .J = of.positive(4)},
+          1.0};
+}
+
 Shape shape_of(const Card& card, const Source& source) {
   const Keyword& keyword = card.keyword();
-  const std::string kind = folded(keyword.required("SECTION", source));
-  if (card.size() == 0) source.fail(card.origin(), "*BEAM SECTION: found no data lines");
-  const Fields fields = card.line(0, source);
-  const auto number = [&](size_t i) {
-    const double value = fields.number(i, "dimension");
-    if (!(value > 0.0))
-      source.fail(card.origin(),
-                  fmt::format("*BEAM SECTION: found a dimension of {}, expected more "
-                              "than 0",
-                              value));
-    return value;
+  const bool is_general = keyword.key == "BEAMGENERALSECTION" && !keyword.has("SECTION");
+  const std::string kind = is_general ? "GENERAL" : folded(keyword.required("SECTION", source));
+  if (card.size() == 0)
+    source.fail(card.origin(), fmt::format("{}: found no data lines", keyword.name));
+  const Dimensions of(card, source);
+  const auto checked = [&](const Shape& shape) {
+    if (!(shape.section.area > 0.0) || !(shape.section.J > 0.0)) of.fail("its walls leave no area");
+    return shape;
   };
-  const auto checked = [&](const BeamSection& section, double shear_factor) -> Shape {
-    if (!(section.area > 0.0) || !(section.J > 0.0))
-      source.fail(card.origin(), "*BEAM SECTION: its walls leave no area");
-    return {section, shear_factor};
-  };
-  if (kind == "CIRC") return checked(ring_section(number(0), 0.0), 0.89);
-  if (kind == "RECT") return checked(rectangle_section(number(0), number(1)), 0.85);
-  if (kind == "PIPE") return checked(ring_section(number(0), number(0) - number(1)), 0.53);
-  if (kind == "BOX") {
-    const double t1 = number(2), t2 = number(3);
-    if (number(4) != t1 || number(5) != t2)
-      source.fail(card.origin(),
-                  "*BEAM SECTION: found a BOX of unequal opposite walls, expected "
-                  "t1 = t3 and t2 = t4");
-    return checked(box_section(number(0), number(1), t1, t2), 0.44);
-  }
-  source.fail(card.origin(),
-              fmt::format("*BEAM SECTION: found SECTION={}, expected CIRC, RECT, PIPE or BOX",
-                          keyword.required("SECTION", source)));
+  if (keyword.has("TAPER")) of.fail("TAPER is not supported, expected a section for each element");
+  if (kind == "CIRC") return checked({ring_section(of.positive(0), 0.0), 0.89});
+  if (kind == "RECT") return checked({rectangle_section(of.positive(0), of.positive(1)), 0.85});
+  if (kind == "PIPE")
+    return checked({ring_section(of.positive(0), of.positive(0) - of.positive(1)), 0.53});
+  if (kind == "BOX") return checked(box_of(of));
+  if (kind == "I") return checked(i_of(of));
+  if (kind == "GENERAL" && keyword.key == "BEAMGENERALSECTION") return checked(general_of(of));
+  of.fail(
+      fmt::format("found SECTION={}, expected CIRC, RECT, PIPE, BOX, I, or GENERAL of a *BEAM "
+                  "GENERAL SECTION",
+                  keyword.required("SECTION", source)));
 }
 
 /// n1 of the second line; (0, 0, -1) without it.
@@ -61,12 +117,29 @@ Eigen::Vector3d first_axis(const Card& card, const Eigen::Vector3d& along, const
   }
   if (!(along.cross(n1).norm() > 1e-6 * along.norm() * n1.norm()))
     source.fail(card.origin(),
-                "*BEAM SECTION: its n1 is along an element, expected a direction "
-                "across it in the second line");
+                fmt::format("{}: its n1 is along an element, expected a direction across it in "
+                            "the second line",
+                            card.keyword().name));
   return n1.normalized();
 }
 
+/// E and G of the third line, and the parameter DENSITY.
+void take_own_material(const Model& model, const Card& card, Beam& beam) {
+  if (card.size() < 3)
+    model.source.fail(card.origin(),
+                      "*BEAM GENERAL SECTION: found no MATERIAL and no third line, "
+                      "expected E, G");
+  const Fields fields = card.line(2, model.source);
+  beam.E = fields.number(0, "E");
+  beam.G = fields.number(1, "G");
+  if (!(beam.E > 0.0) || !(beam.G > 0.0)) fields.fail("found E, G that are not more than 0");
+  if (const std::string* density = card.keyword().find("DENSITY"))
+    beam.rho = Fields(*density, model.source, card.origin()).number(0, "DENSITY");
+}
+
 void take_material(const Model& model, const Card& card, Beam& beam) {
+  if (card.keyword().key == "BEAMGENERALSECTION" && !card.keyword().has("MATERIAL"))
+    return take_own_material(model, card, beam);
   const std::string wanted = card.keyword().required("MATERIAL", model.source);
   const auto known = model.material_names.find(folded(wanted));
   if (known == model.material_names.end())

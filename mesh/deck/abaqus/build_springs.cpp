@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "mesh/deck/abaqus/model.hpp"
+#include "mesh/deck/system_axes.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace {
@@ -102,7 +104,45 @@ Equation::Term end_of(Model& model, const PointElement& element, int32_t row, in
   return {node_index, direction, coefficient};
 }
 
-void add_spring(Model& model, const PointElement& element, const Card& card) {
+// The axes of the DoFs of SPRING1 and SPRING2 at a node: of the section's ORIENTATION, or none.
+std::optional<Eigen::Matrix3d> axes_of(const Model& model, size_t use, const Card& card,
+                                       int32_t row) {
+  const std::string* orientation = card.keyword().find("ORIENTATION");
+  if (orientation == nullptr) return std::nullopt;
+  const std::string name = system_named(model, use, *orientation, card.origin());
+  return axes_at(model.deck.systems.at(name), model.numbering.at(row));
+}
+
+// Both ends of a SPRING1 or SPRING2, the second one with the other sign.
+void add_ends(Model& model, const PointElement& element, size_t use, const Card& card,
+              const std::vector<int>& directions, Spring& spring) {
+  const int32_t ends[] = {element.node, element.second};
+  for (size_t i = 0; i < directions.size(); ++i) {
+    const auto add = [&](int direction, double coefficient) {
+      spring.terms.push_back(
+          end_of(model, element, ends[i], direction, i == 0 ? coefficient : -coefficient));
+    };
+    const auto axes = axes_of(model, use, card, ends[i]);
+    if (!axes && !model.node_map.displacement_system(ends[i]).empty())
+      model.source.fail(element.origin,
+                        fmt::format("element {}: a {} without ORIENTATION on a node with "
+                                    "*TRANSFORM is not supported, expected an ORIENTATION",
+                                    element.id, element.type));
+    if (!axes) {
+      add(directions[i], 1.0);
+      continue;
+    }
+    for (int k = 0; k < 3; ++k)
+      if (const double along = (*axes)(k, directions[i] % 3); along != 0.0)
+        add(directions[i] / 3 * 3 + k, along);
+  }
+  const bool turns = spring.terms.front().direction >= 3;
+  if (turns != (spring.terms.back().direction >= 3))
+    model.source.fail(card.origin(),
+                      "*SPRING: found a rotation against a displacement, expected one kind");
+}
+
+void add_spring(Model& model, const PointElement& element, size_t use, const Card& card) {
   const Property property = property_of(card, element.type, model.source);
   Spring spring;
   spring.where = model.source.where(element.origin);
@@ -122,22 +162,7 @@ void add_spring(Model& model, const PointElement& element, const Card& card) {
       spring.terms.push_back(end_of(model, element, element.node, k, -along));
     }
   } else {
-    const int32_t ends[] = {element.node, element.second};
-    for (size_t i = 0; i < property.directions.size(); ++i) {
-      if (!model.node_map.displacement_system(ends[i]).empty()) {
-        model.source.fail(element.origin,
-                          fmt::format("element {}: a {} on a node with *TRANSFORM is not "
-                                      "supported, expected a SPRINGA",
-                                      element.id, element.type));
-      }
-      spring.terms.push_back(
-          end_of(model, element, ends[i], property.directions[i], i == 0 ? 1.0 : -1.0));
-    }
-    const bool turns = spring.terms.front().direction >= 3;
-    if (turns != (spring.terms.back().direction >= 3)) {
-      model.source.fail(card.origin(),
-                        "*SPRING: found a rotation against a displacement, expected one kind");
-    }
+    add_ends(model, element, use, card, property.directions, spring);
   }
   model.deck.springs.push_back(std::move(spring));
 }
@@ -150,13 +175,13 @@ void build_springs(Model& model) {
   bool noted = false;
   for_each_card(model, {"SPRING", "DASHPOT"}, [&](size_t use, const Card& card) {
     const bool spring = card.keyword().key == "SPRING";
-    card.keyword().allow({"ELSET", "NONLINEAR"}, model.source, model.ignore);
+    card.keyword().allow({"ELSET", "NONLINEAR", "ORIENTATION"}, model.source, model.ignore);
     for (const PointElement& element : point_elements(model, use, card, card.keyword().key)) {
       if (!described.insert(element.origin).second) {
         model.source.fail(card.origin(), fmt::format("{}: element {} has a value already",
                                                      card.keyword().name, element.id));
       }
-      if (spring) model.refusals.attempt([&] { add_spring(model, element, card); });
+      if (spring) model.refusals.attempt([&] { add_spring(model, element, use, card); });
     }
     if (spring || noted) return;
     noted = true;

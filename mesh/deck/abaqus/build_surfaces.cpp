@@ -137,18 +137,21 @@ class SurfaceReader {
 
   static int32_t side_of(const Fields& fields) {
     const std::string side = folded(fields.text(1));
-    if (side == "SNEG") return kSneg;
-    if (side.empty() || side == "SPOS") return kSpos;
+    if (side == "SNEG" || side == "S1") return kSneg;  // S1 to S6: as CalculiX numbers them
+    if (side.empty() || side == "SPOS" || side == "S2") return kSpos;
     fields.fail(
         fmt::format("found face {} of shells, expected SPOS, SNEG or E1 to E4", shown(side)));
   }
 
-  // "elements, E2": the nodes of the second side of shells. False for faces.
+  // "elements, E2", or S4: the nodes of the second side of shells. False for faces.
   bool takes_edge(const Fields& fields, int32_t element) {
     const std::string label = folded(fields.text(1));
-    if (label.size() != 2 || label[0] != 'E') return false;
+    if (label.size() != 2) return false;
+    const bool numbered = label[0] == 'S' && label[1] >= '3' && label[1] <= '6';
+    if (label[0] != 'E' && !numbered) return false;
     const ThinElement& thin = *numbering_.thin(element);
-    const int32_t corners = traits(*thin.face).corners, edge = label[1] - '1';
+    const int32_t corners = traits(*thin.face).corners;
+    const int32_t edge = label[1] - (numbered ? '3' : '1');
     if (edge < 0 || edge >= corners)
       fields.fail(fmt::format("found edge {} of shell {} {}, expected E1 to E{}", label, thin.type,
                               thin.id, corners));

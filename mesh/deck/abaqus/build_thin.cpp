@@ -83,7 +83,8 @@ class ThinElements {
   bool is_beam(size_t t) const {
     if (all_[t].face || section_[t] == nullptr) return false;
     const std::string keyword = folded(section_[t]->keyword().name);
-    return keyword == (all_[t].type.starts_with("T") ? "*SOLIDSECTION" : "*BEAMSECTION");
+    if (all_[t].type.starts_with("T")) return keyword == "*SOLIDSECTION";
+    return keyword == "*BEAMSECTION" || keyword == "*BEAMGENERALSECTION";
   }
 
   // A face without stiffness is only a name; one with a section is refused where no solid has it.
@@ -114,7 +115,9 @@ class ThinElements {
   }
 
   std::string reason(const ThinElement& one) const {
-    if (!one.face) return "are beams or trusses beside the solids, which are not read";
+    if (!one.face)
+      return "are beams or trusses without a *BEAM SECTION, *BEAM GENERAL SECTION, or of trusses "
+             "*SOLID SECTION";
     if (is_shell_type(one.type) && has_shell_section(one))
       return "are shells whose nodes all belong to solids, which do not turn";
     return fmt::format(

@@ -58,6 +58,37 @@ TEST(AbaqusBars, OfABoxHasItsWalls) {
   EXPECT_NEAR(found.at(0).sections.at(0).area, 24.0 - 4.0 * 3.0, 1e-14);
 }
 
+TEST(AbaqusBars, OfAnIIsHighAlongLocal2) {
+  const std::string head =
+      "*ELEMENT, TYPE=B31, ELSET=B\n7, 1, 2\n"
+      "*BEAM SECTION, ELSET=B, MATERIAL=STEEL, SECTION=I\n";
+  const auto found = beams(head + "5., 10., 6., 6., 1., 1., .5\n0., 1., 0.\n");
+  const recipe::BeamSection& section = found.at(0).sections.at(0);
+  EXPECT_NEAR(section.area, 16.0, 1e-14);
+  EXPECT_NEAR(section.I2, (6.0 * 1000.0 - 5.5 * 512.0) / 12.0, 1e-12);
+  EXPECT_NEAR(section.I1, (2.0 * 216.0 + 8.0 * 0.125) / 12.0, 1e-12);
+  EXPECT_THAT(refusal(kNodes + head + "4., 10., 6., 6., 1., 1., .5\n"),
+              HasSubstr("expected its centroid at 5"));
+}
+
+TEST(AbaqusBars, OfAGeneralSectionHasItsNumbersOrTheShapeOfCalculix) {
+  const std::string head = "*ELEMENT, TYPE=B31, ELSET=B\n7, 1, 2\n*BEAM GENERAL SECTION, ELSET=B";
+  const auto own = beams(head + ", DENSITY=7850.\n6., 2., .1, 4.5, 3.\n0., 1., 0.\n2.E11, 8.E10\n");
+  const recipe::BeamSection& section = own.at(0).sections.at(0);
+  EXPECT_EQ(section.area, 6.0);
+  EXPECT_EQ(section.I1, 4.5);  // int y^2, bending about local 2
+  EXPECT_EQ(section.I2, 2.0);
+  EXPECT_EQ(section.I12, 0.1);
+  EXPECT_EQ(section.J, 3.0);
+  EXPECT_EQ(own[0].E, 2e11);
+  EXPECT_EQ(own[0].G, 8e10);
+  EXPECT_EQ(own[0].rho, 7850.0);
+  const auto pipe = beams(head + ", MATERIAL=STEEL, SECTION=PIPE\n2., 1.\n0., 1., 0.\n");
+  EXPECT_NEAR(pipe.at(0).sections.at(0).area, 3.0 * std::numbers::pi, 1e-14);
+  EXPECT_EQ(pipe[0].E, 2.1e11);
+  EXPECT_THAT(refusal(kNodes + head + "\n6., 2., .1, 4.5, 3.\n"), HasSubstr("expected E, G"));
+}
+
 TEST(AbaqusBars, TrussesHaveAnAreaAlone) {
   const auto found = beams(
       "*ELEMENT, TYPE=T3D2, ELSET=T\n7, 1, 2\n*SOLID SECTION, ELSET=T, MATERIAL=Steel\n2.5\n");
@@ -74,7 +105,10 @@ TEST(AbaqusBars, WithoutMeaningIsRefusedByLine) {
   };
   const std::string head = "*BEAM SECTION, ELSET=B, MATERIAL=STEEL, SECTION=";
   EXPECT_THAT(refused(""), HasSubstr("deck.inp:11: 1 elements B31 are beams or trusses"));
-  EXPECT_THAT(refused(head + "HEX\n1., 2.\n"), HasSubstr("expected CIRC, RECT, PIPE or BOX"));
+  EXPECT_THAT(refused(head + "HEX\n1., 2.\n"),
+              HasSubstr("expected CIRC, RECT, PIPE, BOX, I, or GENERAL"));
+  EXPECT_THAT(refused("*BEAM SECTION, TAPER, ELSET=B, MATERIAL=STEEL, SECTION=CIRC\n1.\n"),
+              HasSubstr("TAPER is not supported"));
   EXPECT_THAT(refused(head + "CIRC\n0.\n"), HasSubstr("a dimension of 0"));
   EXPECT_THAT(refused(head + "CIRC\n1.\n1., 0., 0.\n"), HasSubstr("n1 is along an element"));
   EXPECT_THAT(refused(head + "BOX\n6., 4., 1., .5, 1., .6\n"), HasSubstr("unequal opposite walls"));

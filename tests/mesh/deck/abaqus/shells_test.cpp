@@ -154,6 +154,7 @@ TEST(AbaqusShells, TheirNodesTurn) {
 TEST(AbaqusShells, PressuresLeaveOnTheSideOfTheNormal) {
   const Deck deck = read(kSheetDeck +
                          "*SURFACE, NAME=TOP\nWALL, SPOS\n*SURFACE, NAME=LOW\nWALL, SNEG\n"
+                         "*SURFACE, NAME=TWO\nWALL, S2\n*SURFACE, NAME=ONE\nWALL, S1\n"
                          "*STEP\n*STATIC\n*DLOAD\nWALL, P, 2.\nWALL, GRAV, 9., 0., 0., -1.\n"
                          "*DSLOAD\nTOP, P, 3.\n*END STEP\n");
   const auto first = [&](const std::string& name) {
@@ -162,6 +163,8 @@ TEST(AbaqusShells, PressuresLeaveOnTheSideOfTheNormal) {
   };
   EXPECT_THAT(first("TOP"), ElementsAre(0, 1, 4, 3));
   EXPECT_THAT(first("LOW"), ElementsAre(0, 3, 4, 1));
+  EXPECT_EQ(first("TWO"), first("TOP"));
+  EXPECT_EQ(first("ONE"), first("LOW"));
   ASSERT_EQ(deck.steps.at(0).pressures.size(), 2u);
   const Step::Pressure& along = deck.steps.at(0).pressures.at(0);
   EXPECT_EQ(along.value, 2.0);
@@ -169,8 +172,8 @@ TEST(AbaqusShells, PressuresLeaveOnTheSideOfTheNormal) {
   EXPECT_EQ(deck.steps.at(0).acceleration, Eigen::Vector3d(0, 0, -9));
   EXPECT_THAT(refusal(kModel + "*STEP\n*STATIC\n*DLOAD\nEALL, P, 2.\n*END STEP\n"),
               HasSubstr("found a pressure P on EALL, which has elements that are no shells"));
-  EXPECT_THAT(refusal(kSheetDeck + "*SURFACE, NAME=TOP\nWALL, S3\n"),
-              HasSubstr("found face 'S3' of shells, expected SPOS, SNEG or E1 to E4"));
+  EXPECT_THAT(refusal(kSheetDeck + "*SURFACE, NAME=TOP\nWALL, S7\n"),
+              HasSubstr("found face 'S7' of shells, expected SPOS, SNEG or E1 to E4"));
 }
 
 TEST(AbaqusShells, AWallBetweenTwoSolidsIsNoSkin) {

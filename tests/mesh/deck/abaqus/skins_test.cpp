@@ -85,8 +85,9 @@ TEST(AbaqusSkins, TheyMayBeInASurfaceARigidBodyAndANodeSet) {
 }
 
 TEST(AbaqusSkins, BeamsAreRefusedWithTheWayOut) {
-  EXPECT_THAT(refusal(kModel + "*ELEMENT, TYPE=B31, ELSET=B\n50, 8, 9\n"),
-              HasSubstr("deck.inp:25: 1 elements B31 are beams or trusses beside the solids"));
+  EXPECT_THAT(
+      refusal(kModel + "*ELEMENT, TYPE=B31, ELSET=B\n50, 8, 9\n"),
+      HasSubstr("deck.inp:25: 1 elements B31 are beams or trusses without a *BEAM SECTION"));
 }
 
 TEST(AbaqusSolids, VariantsAreReadAsTheirNearestCounterpartWithALine) {

@@ -44,6 +44,23 @@ TEST(AbaqusSpring, OfOneDirectionActsOnOneNodeOrTwo) {
   EXPECT_EQ(deck.springs[1].terms[1].coefficient, -1.0);
 }
 
+TEST(AbaqusSpring, ActsAlongItsOrientation) {
+  const std::string head = kModel + "*ORIENTATION, NAME=O\n3., 4., 0., -4., 3., 0.\n";
+  const std::string one = "*ELEMENT, TYPE=SPRING1, ELSET=ONE\n7, 7\n";
+  const Deck deck = read(head + one + "*SPRING, ELSET=ONE, ORIENTATION=o\n2\n5.\n");
+  ASSERT_EQ(deck.springs.size(), 1u);
+  ASSERT_EQ(deck.springs[0].terms.size(), 2u);
+  EXPECT_NEAR(deck.springs[0].terms[0].coefficient, -.8, 1e-15);
+  EXPECT_NEAR(deck.springs[0].terms[1].coefficient, .6, 1e-15);
+  EXPECT_THAT(refusal(head + one + "*SPRING, ELSET=ONE, ORIENTATION=P\n2\n5.\n"),
+              HasSubstr("found no orientation 'P'"));
+  const std::string turned = "*TRANSFORM, NSET=TOP, TYPE=R\n3,4,0,-4,3,0\n";
+  EXPECT_THAT(refusal(head + turned + one + "*SPRING, ELSET=ONE\n2\n5.\n"),
+              HasSubstr("a SPRING1 without ORIENTATION on a node with *TRANSFORM"));
+  const std::string along = "*SPRING, ELSET=ONE, ORIENTATION=O\n2\n5.\n";
+  EXPECT_EQ(read(head + turned + one + along).springs.size(), 1u);
+}
+
 TEST(AbaqusSpring, OfATableIsReadWhenItIsOneLineThroughZero) {
   const std::string head = kModel + kAxial + "*SPRING, ELSET=SPR, NONLINEAR\n\n";
   EXPECT_EQ(read(head + "-24., -2.\n0., 0.\n12., 1.\n").springs[0].stiffness, 12.0);
