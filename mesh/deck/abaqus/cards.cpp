@@ -157,6 +157,7 @@ constexpr std::array kRoles = {
     KeywordRole{"ELEMENT OUTPUT", Role::kHarmless, kOutput},
     KeywordRole{"EL FILE", Role::kHarmless, kOutput},
     KeywordRole{"EL PRINT", Role::kHarmless, kOutput},
+    KeywordRole{"END", Role::kHarmless, "end of the deck"},
     KeywordRole{"ENERGY FILE", Role::kHarmless, kOutput},
     KeywordRole{"ENERGY OUTPUT", Role::kHarmless, kOutput},
     KeywordRole{"ENERGY PRINT", Role::kHarmless, kOutput},

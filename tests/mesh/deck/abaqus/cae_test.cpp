@@ -61,6 +61,10 @@ TEST(AbaqusCae, AnInstanceAddsToItsPart) {
               HasSubstr("deck.inp:1: found no part 'Q'"));
 }
 
+TEST(AbaqusCae, AnEndOfTheDeckIsPassedOver) {
+  EXPECT_THAT(read(kCube + "*End").passed, HasSubstr("end of the deck: *END"));
+}
+
 TEST(AbaqusCae, WhatChangesNeitherKNorMIsPassedOverAndListed) {
   Deck deck = read(kInstances + kSteelCae + kFrequency);
   EXPECT_EQ(deck.passed,
