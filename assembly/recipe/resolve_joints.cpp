@@ -149,8 +149,11 @@ MatrixSpec Resolver::matrix(const recipe::Matrix& matrix, size_t number) {
                        fmt::format("found {} numbers for {} terms, expected {}: the lower "
                                    "triangle row by row",
                                    lower.size(), n, n * (n + 1) / 2));
-  MatrixSpec spec{name, where(matrix.source, "matrix " + name), is_mass,
-                  terms_of(matrix.source, "matrix " + name, matrix.terms), Eigen::MatrixXd(n, n),
+  MatrixSpec spec{name,
+                  where(matrix.source, "matrix " + name),
+                  is_mass,
+                  terms_of(matrix.source, "matrix " + name, matrix.terms),
+                  Eigen::MatrixXd(n, n),
                   matrix.loss_factor};
   size_t at = 0;
   for (Eigen::Index i = 0; i < n; ++i)

@@ -169,7 +169,7 @@ void surface_rows(Rows& key, Tie& tie, bool needs_slave) {
 template <class Rows>
 auto loss_row(Rows& key, double& loss_factor) {
   return key.number("loss_factor", loss_factor, Range::between(0.0, 10.0),
-             "share of its energy that a cycle loses, over 2 pi");
+                    "share of its energy that a cycle loses, over 2 pi");
 }
 
 }  // namespace

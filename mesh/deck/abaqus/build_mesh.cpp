@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "mesh/deck/abaqus/model.hpp"
+#include "mesh/deck/shell_shape.hpp"
 #include "mesh/deck/skins.hpp"
 
 namespace clatter::mesh::deck::abaqus {
@@ -17,7 +18,9 @@ std::vector<int32_t> take_nodes(const Numbering& numbering, const ShellParts& sh
   for (size_t t = 0; t < numbering.thin().size(); ++t) {
     if (shells.section(static_cast<int32_t>(t)) < 0) continue;
     const ThinElement& shell = numbering.thin()[t];
-    for (int32_t i = 0; i < shell.count; ++i) node[shell.nodes[i]] = 0;
+    ShellFace face{.type = *shell.face, .nodes = shell.nodes};
+    drop_repeated_corner(face);  // and the node between equal corners
+    for (int i = 0; i < traits(face.type).nodes; ++i) node[face.nodes[static_cast<size_t>(i)]] = 0;
   }
   int32_t count = 0;
   for (int32_t& n : node) {

@@ -153,7 +153,8 @@ void add_shell_nodes(Model& model) {
   std::vector<bool> turns(static_cast<size_t>(mesh.nodes.rows()), false);
   for (size_t t = 0; t < model.shells.section_of.size(); ++t) {
     if (!is_shell(model, t)) continue;
-    const ShellFace face = face_of_shell(model, t);
+    ShellFace face = face_of_shell(model, t);
+    drop_repeated_corner(face);
     for (size_t i = 0; i < static_cast<size_t>(traits(face.type).nodes); ++i)
       turns[static_cast<size_t>(face.nodes[i])] = true;
     if (face.centre >= 0) turns[static_cast<size_t>(face.centre)] = true;

@@ -142,10 +142,10 @@ struct RawSpring {  // CELAS1 to CELAS4, CMASS1 to CMASS4
   };
   Origin origin = 0;
   bool is_mass = false;
-  int32_t property = 0;   // PELAS or PMASS; 0: own value
-  double value = 0.0;     // stiffness or mass
+  int32_t property = 0;      // PELAS or PMASS; 0: own value
+  double value = 0.0;        // stiffness or mass
   double loss_factor = 0.0;  // GE of own value
-  std::vector<End> ends;  // one: against the ground
+  std::vector<End> ends;     // one: against the ground
 };
 
 struct RawBush {  // CBUSH, CGAP
@@ -342,9 +342,9 @@ struct RawDeck {
   std::vector<RawLink> links;
   std::vector<RawMass> masses;
   std::vector<RawMassMatrix> mass_matrices;
-  std::vector<RawSpring> springs;              // and scalar masses
+  std::vector<RawSpring> springs;  // and scalar masses
   std::map<int32_t, RawSpringProperty> spring_properties;
-  std::map<int32_t, double> scalar_masses;     // PMASS
+  std::map<int32_t, double> scalar_masses;  // PMASS
   std::vector<RawBar> bars;
   std::optional<RawBar> bar_default, beam_default;  // BAROR, BEAMOR
   std::map<int32_t, RawBarProperty> bar_properties;

@@ -43,8 +43,8 @@ class RecipeMaker {
     for (const Equation& equation : deck_.equations)
       file_.equations.push_back({Source(equation.where), terms(equation.terms)});
     for (const Spring& spring : deck_.springs)
-      file_.springs.push_back({Source(spring.where), "", spring.stiffness, terms(spring.terms),
-                               spring.loss_factor});
+      file_.springs.push_back(
+          {Source(spring.where), "", spring.stiffness, terms(spring.terms), spring.loss_factor});
     for (const Beam& beam : deck_.beams) {
       file_.beams.push_back(beam);
       file_.beams.back().points = {names_.reference(beam.ends[0]), names_.reference(beam.ends[1])};

@@ -138,6 +138,16 @@ TEST(AbaqusShells, QuadraticAndReducedOnesAreSaid) {
   EXPECT_THAT(notes_of(deck), HasSubstr("S4R, S8R are read with full integration"));
 }
 
+TEST(AbaqusShells, TheNodeBetweenEqualCornersIsNoNodeOfTheMesh) {
+  const Deck deck = read(kSheetNodes +
+                         "*NODE\n21, .5, 0, 0\n22, 1, .5, 0\n23, .5, .5, 0\n24, 0, 0, 0\n"
+                         "*ELEMENT, TYPE=S8R, ELSET=WALL\n11, 1, 2, 5, 1, 21, 22, 23, 24\n" +
+                         kShellSection);
+  EXPECT_EQ(deck.mesh.shells.at(0).nodes.rows(), 4);
+  EXPECT_EQ(std::ranges::count(deck.mesh.node_ids, 24), 0);
+  EXPECT_EQ(deck.mesh.nodes.rows(), 6);
+}
+
 TEST(AbaqusShells, TheirNodesTurn) {
   Deck deck = read(kSheetDeck +
                    "*NSET, NSET=FIX\n1, 4\n*BOUNDARY\nFIX, 1, 6\n*STEP\n*STATIC\n"

@@ -70,7 +70,8 @@ TEST(NastranSpring, HasTheLossFactorOfAllStiffnessBesideItsOwn) {
   EXPECT_THAT(losses_of(deck), testing::ElementsAre(testing::DoubleEq(.07)));
   EXPECT_EQ(deck.materials.at("mat_1").loss_factor, .02);
   EXPECT_THAT(deck.notes, testing::Contains(HasSubstr("PARAM, G: 0.02 is added to the loss")));
-  EXPECT_THAT(refusal(kTet + "PARAM,G,-.02\n"), HasSubstr("PARAM G: found '-.02', expected a loss"));
+  EXPECT_THAT(refusal(kTet + "PARAM,G,-.02\n"),
+              HasSubstr("PARAM G: found '-.02', expected a loss"));
 }
 
 // Two points 2 apart along z: the springs are in the middle.
