@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Hard case N22: the sound of sheets, alone and where they close a body, and faces that touch.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -155,18 +156,22 @@ TEST(HardN22_Sheets, ASheetInFreeAirTakesTheAirOfBothSidesAlong) {
   for (int32_t f = 0; f < mesh.triangles.rows(); ++f) skin.sheet.push_back(f);
   const Exposure sides = exposure(skin);
   for (const int32_t f : skin.sheet) EXPECT_TRUE(sides.front[f] && sides.of_back(f));
-  const PartSound sound = sound_of_rigid(skin, 300.0);
-  const SoundSample& lowest = sound.table.samples.front();
-  const sound::Fluid& air = sound.table.fluid;
-  const double omega = 2.0 * std::numbers::pi * lowest.frequency_hz,
-               density = air.impedance() / air.sound_speed;
-  const double force = 8.0 / 3.0 * density * std::pow(kRadius, 3) * omega;
-  const double exact = 2.0 * std::pow(omega * force, 2) /
-                       (24.0 * std::numbers::pi * density * std::pow(air.sound_speed, 3));
-  test::expect_at_most("power of a disc along its axis [dB]",
-                       std::abs(10.0 * std::log10(lowest.R(2, 2) / exact)), 0.6);
-  // Along its plane it moves no air but that of the wrap's thickness.
-  EXPECT_LT(lowest.R(0, 0), 1e-3 * lowest.R(2, 2));
+  // Of the default skin, whose faces are those of the version of CGAL, 0.53 dB and 0.67 dB.
+  for (const auto& [shape_error, limit_db] : {std::pair(0.02, 1.0), std::pair(0.01, 0.2)}) {
+    const PartSound sound = sound_of_rigid(skin, 300.0, shape_error);
+    const SoundSample& lowest = sound.table.samples.front();
+    const sound::Fluid& air = sound.table.fluid;
+    const double omega = 2.0 * std::numbers::pi * lowest.frequency_hz,
+                 density = air.impedance() / air.sound_speed;
+    const double force = 8.0 / 3.0 * density * std::pow(kRadius, 3) * omega;
+    const double exact = 2.0 * std::pow(omega * force, 2) /
+                         (24.0 * std::numbers::pi * density * std::pow(air.sound_speed, 3));
+    test::expect_at_most(
+        fmt::format("power of a disc along its axis [dB], shape within {}", shape_error),
+        std::abs(10.0 * std::log10(lowest.R(2, 2) / exact)), limit_db);
+    // Along its plane it moves no air but that of the wrap's thickness.
+    EXPECT_LT(lowest.R(0, 0), 1e-3 * lowest.R(2, 2));
+  }
 }
 
 }  // namespace

@@ -163,13 +163,14 @@ rom::ReducedModel model_on(const Mesh6& mesh, const RowMatrix& T, double valid_t
   return model;
 }
 
-PartSound sound_of_rigid(const rom::Skin& skin, double to_hz) {
+PartSound sound_of_rigid(const rom::Skin& skin, double to_hz, double shape_error) {
   RowMatrix T = RowMatrix::Zero(skin.nodes.size(), 3);
   for (Eigen::Index n = 0; n < skin.nodes.rows(); ++n) T.middleRows(3 * n, 3).setIdentity();
   rom::ReducedModel model = model_on({skin.nodes, skin.triangles}, T, 5000.0);
   model.skin = skin;
   model.skin.T = T;
   SoundOptions options;
+  options.skin.mesh.shape_error = shape_error;
   options.grid.from_hz = 50.0;
   options.grid.to_hz = to_hz;
   options.grid.tolerance_db = 2.0;

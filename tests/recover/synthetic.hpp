@@ -42,7 +42,7 @@ rom::ReducedModel model_on(const Mesh6& mesh, const RowMatrix& T, double valid_t
 
 /// The sound of a body that moves along x, y and z without deforming, from 50 Hz; between the
 /// frequencies that are computed within 2 dB.
-PartSound sound_of_rigid(const rom::Skin& skin, double to_hz);
+PartSound sound_of_rigid(const rom::Skin& skin, double to_hz, double shape_error = 0.02);
 
 /// Motion of reduced coordinates: displacement, velocity and acceleration at a time.
 struct Motion {
