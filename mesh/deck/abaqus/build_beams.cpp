@@ -44,6 +44,14 @@ class Dimensions {
   Fields fields_;
 };
 
+/// Abaqus has the radius, CalculiX the diameter, once or along local 1 and 2.
+double circle_radius(const Dimensions& of, bool is_calculix) {
+  const double along_1 = of.positive(0), along_2 = of.any(1);
+  if (along_2 != 0.0 && along_2 != along_1)
+    of.fail("found an ellipse, expected the radius, or the diameter twice");
+  return along_2 != 0.0 || is_calculix ? 0.5 * along_1 : along_1;
+}
+
 Shape box_of(const Dimensions& of) {
   const double t1 = of.positive(2), t2 = of.positive(3);
   if (of.positive(4) != t1 || of.positive(5) != t2)
@@ -82,7 +90,8 @@ Shape general_of(const Dimensions& of) {
           1.0};
 }
 
-Shape shape_of(const Card& card, const Source& source) {
+Shape shape_of(const Model& model, const Card& card) {
+  const Source& source = model.source;
   const Keyword& keyword = card.keyword();
   const bool is_general = keyword.key == "BEAMGENERALSECTION" && !keyword.has("SECTION");
   const std::string kind = is_general ? "GENERAL" : folded(keyword.required("SECTION", source));
@@ -94,7 +103,8 @@ Shape shape_of(const Card& card, const Source& source) {
     return shape;
   };
   if (keyword.has("TAPER")) of.fail("TAPER is not supported, expected a section for each element");
-  if (kind == "CIRC") return checked({ring_section(of.positive(0), 0.0), 0.89});
+  if (kind == "CIRC")
+    return checked({ring_section(circle_radius(of, model.is_calculix), 0.0), 0.89});
   if (kind == "RECT") return checked({rectangle_section(of.positive(0), of.positive(1)), 0.85});
   if (kind == "PIPE")
     return checked({ring_section(of.positive(0), of.positive(0) - of.positive(1)), 0.53});
@@ -169,7 +179,7 @@ void add_beam(Model& model, const ThinElement& element, const Card& card) {
                         fmt::format("found an area of {}, expected more than 0", area));
     beam.sections = {{.area = area}};
   } else {
-    const Shape shape = shape_of(card, model.source);
+    const Shape shape = shape_of(model, card);
     beam.sections = {shape.section};
     beam.shear_factors = {shape.shear_factor, shape.shear_factor};
   }

@@ -29,6 +29,7 @@ class ThinElements {
     if (!refuse_structures()) return;
     for (size_t t = 0; t < all_.size(); ++t)
       if (is_beam(t)) model_.refusals.attempt([&] { add_beam(model_, all_[t], *section_[t]); });
+    note_circles();
     name_groups();
     skins_.note(where_of_first());
     note_sections();
@@ -172,6 +173,23 @@ class ThinElements {
   }
 
   // What the solids have is the deck's; what a section of their skin adds is left out.
+  // The one number of a CIRC is the radius in Abaqus, the diameter in CalculiX.
+  void note_circles() {
+    std::map<Origin, std::string> found;
+    for (size_t t = 0; t < all_.size(); ++t) {
+      if (!is_beam(t) || folded(section_[t]->keyword().choice("SECTION", "")) != "CIRC") continue;
+      const Card& card = *section_[t];
+      if (card.size() == 0 || !card.line(0, model_.source).blank(1)) continue;
+      found[card.origin()] = std::string(card.line(0, model_.source).text(0));
+    }
+    for (const auto& [origin, number] : found)
+      model_.deck.notes.push_back(
+          fmt::format("{}: CIRC: {} is the {}", model_.source.where(origin), number,
+                      model_.is_calculix
+                          ? "diameter, since the deck has OUTPUT=2D or 3D as CalculiX reads them"
+                          : "radius, as Abaqus has it; the diameter of CalculiX is written twice"));
+  }
+
   void note_sections() {
     std::map<const Card*, double> areas;
     for (size_t t = 0; t < all_.size(); ++t) {

@@ -55,6 +55,7 @@ struct Model {
   // Of each *ORIENTATION: 1 to 3, the axis of its second line; 0: it has none.
   std::map<std::string, int> turned_axis;
   std::map<std::string, const Card*> amplitudes;  // by folded name
+  bool is_calculix = false;                       // RawDeck::is_calculix
   std::optional<double> step_time, total_time;    // at the end of an open general static step
   std::vector<int32_t> region_of_cell;            // index into Mesh::regions
   int64_t faces = 0;                              // of all surfaces

@@ -104,6 +104,7 @@ struct RawDeck {
   std::vector<std::string> notes;  // Deck::notes
   std::vector<Damping> damping;    // Deck::damping
   bool marked_shells = false;      // kShellMark
+  bool is_calculix = false;        // it has OUTPUT=2D or 3D, which CalculiX alone reads
 };
 
 /// The chunk that a new keyword adds to; creates the set if needed.

@@ -16,7 +16,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   RawDeck raw = parse(source, ignore, refusals);
   std::vector<std::string> notes = std::move(raw.notes);
   std::vector<Damping> damping = std::move(raw.damping);
-  const bool marked_shells = raw.marked_shells;
+  const bool marked_shells = raw.marked_shells, is_calculix = raw.is_calculix;
   std::unique_ptr<Model> model_owner;
   refusals.require(
       [&] { model_owner = std::make_unique<Model>(source, std::move(raw), ignore, refusals); });
@@ -25,6 +25,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   model.deck.notes = std::move(notes);
   model.deck.damping = std::move(damping);
   model.shells.are_marked = marked_shells;
+  model.is_calculix = is_calculix;
   build_materials(model);
   build_systems(model);
   refusals.require([&] { build_mesh(model); });

@@ -58,6 +58,26 @@ TEST(AbaqusBars, OfABoxHasItsWalls) {
   EXPECT_NEAR(found.at(0).sections.at(0).area, 24.0 - 4.0 * 3.0, 1e-14);
 }
 
+TEST(AbaqusBars, ACircleHasItsRadiusInAbaqusAndItsDiameterInCalculix) {
+  const std::string head =
+      "*ELEMENT, TYPE=B31, ELSET=B\n7, 1, 2\n"
+      "*BEAM SECTION, ELSET=B, MATERIAL=STEEL, SECTION=CIRC\n";
+  const auto area = [](const Deck& deck) { return deck.beams.at(0).sections.at(0).area; };
+  const Deck of_abaqus = read(kNodes + head + "2.\n0., 1., 0.\n");
+  EXPECT_NEAR(area(of_abaqus), 4.0 * std::numbers::pi, 1e-14);
+  EXPECT_THAT(of_abaqus.notes,
+              ::testing::Contains(HasSubstr("deck.inp:13: CIRC: 2. is the radius")));
+  const Deck twice = read(kNodes + head + "2., 2.\n0., 1., 0.\n");
+  EXPECT_NEAR(area(twice), std::numbers::pi, 1e-14);
+  EXPECT_THAT(twice.notes, ::testing::Not(::testing::Contains(HasSubstr("CIRC"))));
+  const Deck of_calculix = read(kNodes + head +
+                                "2.\n0., 1., 0.\n*STEP\n*STATIC\n*CLOAD\n2, 2, 1.\n"
+                                "*NODE FILE, OUTPUT=2d\nU\n*END STEP\n");
+  EXPECT_NEAR(area(of_calculix), std::numbers::pi, 1e-14);
+  EXPECT_THAT(of_calculix.notes, ::testing::Contains(HasSubstr("CIRC: 2. is the diameter")));
+  EXPECT_THAT(refusal(kNodes + head + "2., 3.\n"), HasSubstr("found an ellipse"));
+}
+
 TEST(AbaqusBars, OfAnIIsHighAlongLocal2) {
   const std::string head =
       "*ELEMENT, TYPE=B31, ELSET=B\n7, 1, 2\n"
