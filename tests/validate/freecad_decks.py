@@ -98,8 +98,8 @@ def main():
     folders = [pathlib.Path(word) for word in sys.argv[1:] if not word.startswith("--")]
     rows = [row_of(path) for path in sorted((folders or [FOLDER])[0].glob("*.inp"))]
     count = collections.Counter(row[3] for row in rows)
-    text = (f"{len(rows)} decks: {count['agrees']} agree, {count['differs']} differ, {count['read']} are read but not compared, "
-            f"{count['refused']} are refused.")
+    text = (f"{len(rows)} decks: {count['agrees']} agree, {count['differs']} differ, {count['refused']} are refused; "
+            f"CalculiX refuses {count['read']}.")
     docs_table.finish("freecad_decks", text + "\n\n" + docs_table.markdown(
         ["deck", "compared, or why it is refused", "difference", "", ""], rows), sys.argv[1:])
 
