@@ -66,7 +66,7 @@ TEST(AbaqusBars, ACircleHasItsRadiusInAbaqusAndItsDiameterInCalculix) {
   const Deck of_abaqus = read(kNodes + head + "2.\n0., 1., 0.\n");
   EXPECT_NEAR(area(of_abaqus), 4.0 * std::numbers::pi, 1e-14);
   EXPECT_THAT(of_abaqus.notes,
-              ::testing::Contains(HasSubstr("deck.inp:13: CIRC: 2. is the radius")));
+              ::testing::Contains(HasSubstr("deck.inp:12: CIRC: 2. is the radius")));
   const Deck twice = read(kNodes + head + "2., 2.\n0., 1., 0.\n");
   EXPECT_NEAR(area(twice), std::numbers::pi, 1e-14);
   EXPECT_THAT(twice.notes, ::testing::Not(::testing::Contains(HasSubstr("CIRC"))));
