@@ -19,6 +19,8 @@ namespace {
 // Deep enough to decide cells whose minimum is above a thousandth of the mean; cells still
 // undecided then are unproved and count as invalid.
 constexpr int kMaxHalvings = 18;
+// Of one cell. Cells of a mesh take tens; only numbers of very different size take more.
+constexpr int kMostParts = 4096;
 
 // The symmetric trilinear (polar) form of the cubic: entry (j, l, m) is the Bezier coefficient of
 // the multiset {j, l, m}. Coefficients over a part of the cell are the form at the part's corners.
@@ -108,27 +110,27 @@ std::array<int, 2> steepest_edge(const PolarForm& form) {
   return best;
 }
 
-// Lower bound of the form over its simplex; positive only if proved.
-double lower_bound(const PolarForm& form, int halvings) {
+// Lower bound of the form over its simplex; positive only if proved. `parts` counts down.
+double lower_bound(const PolarForm& form, int halvings, int& parts) {
   const double low = smallest(form);
   if (low > 0.0) return low;
   const double corner = smallest_corner(form);
-  if (corner <= 0.0 || halvings == kMaxHalvings) return low;
+  if (corner <= 0.0 || halvings == kMaxHalvings || --parts < 0) return low;
   const auto [a, b] = steepest_edge(form);
-  const double first = lower_bound(half(form, a, b), halvings + 1);
+  const double first = lower_bound(half(form, a, b), halvings + 1, parts);
   if (first <= 0.0) return first;
-  return std::min(first, lower_bound(half(form, b, a), halvings + 1));
+  return std::min(first, lower_bound(half(form, b, a), halvings + 1, parts));
 }
 
 // The same over the cube, for the other cells.
-double lower_bound(const CubePolynomial& p, int halvings) {
+double lower_bound(const CubePolynomial& p, int halvings, int& parts) {
   const double low = p.coefficients.minCoeff();
   if (low > 0.0) return low;
-  if (p.smallest_corner() <= 0.0 || halvings == kMaxHalvings) return low;
+  if (p.smallest_corner() <= 0.0 || halvings == kMaxHalvings || --parts < 0) return low;
   const int axis = p.steepest_axis();
-  const double first = lower_bound(p.half(axis, false), halvings + 1);
+  const double first = lower_bound(p.half(axis, false), halvings + 1, parts);
   if (first <= 0.0) return first;
-  return std::min(first, lower_bound(p.half(axis, true), halvings + 1));
+  return std::min(first, lower_bound(p.half(axis, true), halvings + 1, parts));
 }
 
 // A quadrature rule that integrates det J exactly.
@@ -176,7 +178,8 @@ double mean_of(const PolarForm& form) {
 
 JacobianBounds jacobian_bounds(const Tet10Nodes& x) {
   const PolarForm form = polar_form(x);
-  const double low = lower_bound(form, 0);
+  int parts = kMostParts;
+  const double low = lower_bound(form, 0, parts);
   // Not positive in a part of the cell: the bound is the smallest coefficient of the cell.
   return {low > 0.0 ? low : smallest(form), mean_of(form)};
 }
@@ -186,7 +189,8 @@ double volume_of(const Tet10Nodes& x) { return mean_of(polar_form(x)) / 6.0; }
 JacobianBounds jacobian_bounds(CellType type, const CellNodes& x) {
   if (is_tet(type)) return jacobian_bounds(with_mid_side_nodes(type, x));
   const CubePolynomial p = jacobian_polynomial(type, x);
-  const double low = lower_bound(p, 0);
+  int parts = kMostParts;
+  const double low = lower_bound(p, 0, parts);
   // The basis polynomials have equal integrals over the cube, of which a hexahedron is a linear
   // image.
   const double mean = traits(type).corners == 8
