@@ -110,6 +110,8 @@ Shape shape_of(const Model& model, const Card& card) {
     return checked({ring_section(of.positive(0), of.positive(0) - of.positive(1)), 0.53});
   if (kind == "BOX") return checked(box_of(of));
   if (kind == "I") return checked(i_of(of));
+  if (kind == "GENERAL" && keyword.has("MATERIAL"))  // CalculiX: with a shear factor in place of J
+    of.fail("SECTION=GENERAL with a MATERIAL is not read, expected E, G in the third line");
   if (kind == "GENERAL" && keyword.key == "BEAMGENERALSECTION") return checked(general_of(of));
   of.fail(
       fmt::format("found SECTION={}, expected CIRC, RECT, PIPE, BOX, I, or GENERAL of a *BEAM "

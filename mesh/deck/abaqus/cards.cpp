@@ -242,6 +242,11 @@ const KeywordRole* row_of(std::string_view key) {
   return at == kRoles.end() ? nullptr : &*at;
 }
 
+bool is_calculix_output(const Keyword& keyword) {
+  const std::string output = folded(keyword.choice("OUTPUT", ""));
+  return output == "2D" || output == "3D";
+}
+
 Role role_of(std::string_view key) {
   const KeywordRole* row = row_of(key);
   return row == nullptr ? Role::kUnknown : row->role;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mesh/deck/abaqus/card.hpp"
 #include "mesh/deck/contents.hpp"
 
 namespace clatter::mesh::deck::abaqus {
@@ -42,6 +43,9 @@ struct KeywordRole {
 /// What an ignored keyword takes from the model and what of the recipe replaces it, to be appended
 /// to the advice; empty for procedures.
 std::string advice_of(std::string_view key);
+
+/// Whether a request of output has OUTPUT=2D or 3D, which CalculiX alone reads.
+bool is_calculix_output(const Keyword& keyword);
 
 /// The role of a keyword by its folded name without star ("SOLIDSECTION").
 Role role_of(std::string_view key);

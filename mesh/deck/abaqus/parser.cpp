@@ -131,7 +131,7 @@ class Parser {
         return skip_data();
       case Role::kHarmless:
       case Role::kMaterialIdle:
-        note_dialect(keyword);
+        deck_.is_calculix |= is_calculix_output(keyword);
         return skip_data();
       case Role::kNode:
         return read_nodes(lines_, *scope_, system_, ignore_);
@@ -162,11 +162,6 @@ class Parser {
         if (keyword.key == "STATIC" || keyword.key == "FREQUENCY") ++linear_steps_;
         return read_card();
     }
-  }
-
-  void note_dialect(const Keyword& keyword) {
-    const std::string output = folded(keyword.choice("OUTPUT", ""));
-    if (output == "2D" || output == "3D") deck_.is_calculix = true;
   }
 
   void record(const Keyword& keyword, bool ignored, bool left_out) {

@@ -107,6 +107,8 @@ TEST(AbaqusBars, OfAGeneralSectionHasItsNumbersOrTheShapeOfCalculix) {
   EXPECT_NEAR(pipe.at(0).sections.at(0).area, 3.0 * std::numbers::pi, 1e-14);
   EXPECT_EQ(pipe[0].E, 2.1e11);
   EXPECT_THAT(refusal(kNodes + head + "\n6., 2., .1, 4.5, 3.\n"), HasSubstr("expected E, G"));
+  EXPECT_THAT(refusal(kNodes + head + ", MATERIAL=STEEL, SECTION=GENERAL\n6., 2., .1, 4.5, .8\n"),
+              HasSubstr("SECTION=GENERAL with a MATERIAL is not read"));
 }
 
 TEST(AbaqusBars, TrussesHaveAnAreaAlone) {
