@@ -67,8 +67,8 @@ Eigen::VectorXd rotation_force(const PartData& part, const LoadSpec& load,
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(part.numbers.count());
   forces.head(3 * part.mesh.nodes.rows()) =
       centrifugal_load(part.mesh, part.recipe.materials, load.axis, load.rotating);
-  if (const auto shells = inputs.of_shells.find(load.name); shells != inputs.of_shells.end())
-    forces += shells->second;
+  if (const auto sheets = inputs.of_sheets.find(load.name); sheets != inputs.of_sheets.end())
+    forces += sheets->second;
   if (!load.rotating.empty()) return forces;
   for (const PointMassSpec& spec : part.recipe.point_masses) {
     const int32_t point = find_point(part.recipe, spec.on);

@@ -27,7 +27,7 @@ struct LoadInputs {
   // In the ids of nodes alone (3 n_nodes), or of all DoFs where there are shells.
   Eigen::MatrixXd momentum;  // M times unit accelerations of all nodes (3 columns); or empty
   std::map<std::string, Eigen::VectorXd> of_fields;  // M a of acceleration fields
-  std::map<std::string, Eigen::VectorXd> of_shells;  // M a of the shells of centrifugal loads
+  std::map<std::string, Eigen::VectorXd> of_sheets;  // M a of shells and surface masses that rotate
   HeatFields heat;                                   // of the [[heat]] tables
 };
 

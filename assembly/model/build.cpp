@@ -14,6 +14,7 @@
 #include "assembly/load/nodal_matrix.hpp"
 #include "assembly/load/point_mass.hpp"
 #include "assembly/load/spring.hpp"
+#include "assembly/load/surface_mass.hpp"
 #include "assembly/model/cell_terms.hpp"
 #include "assembly/model/certify.hpp"
 #include "assembly/model/check.hpp"
@@ -87,11 +88,12 @@ CoordinateBlocks loss_blocks(SparseMatrix loss, const PartData& part,
   return lost;
 }
 
-/// M a of the shells of each centrifugal load.
-std::map<std::string, Eigen::VectorXd> rotation_of_shells(const PartData& part) {
+/// M a of the sheets of each centrifugal load: shells, and surface masses where all rotate.
+std::map<std::string, Eigen::VectorXd> rotation_of_sheets(const PartData& part,
+                                                          const SparseMatrix& surface_mass) {
   std::map<std::string, Eigen::VectorXd> all;
   const mesh::Mesh& mesh = part.mesh;
-  if (mesh.shells.empty()) return all;
+  if (mesh.shells.empty() && surface_mass.rows() == 0) return all;
   const fe::ShellIds ids = shell_ids(part.numbers, mesh.nodes.rows());
   Eigen::VectorXd arms = Eigen::VectorXd::Zero(part.numbers.count());
   for (const LoadSpec& load : part.recipe.loads) {
@@ -102,8 +104,11 @@ std::map<std::string, Eigen::VectorXd> rotation_of_shells(const PartData& part) 
     });
     for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
       arms.segment<3>(3 * a) = load.axis.arm(mesh.nodes.row(a).transpose());
-    all[load.name] = multiply_symmetric(
-        fe::assemble_shells(rotating, part.recipe.materials, part.recipe.sections, ids).M, arms);
+    SparseMatrix M;
+    if (!rotating.shells.empty())
+      M = fe::assemble_shells(rotating, part.recipe.materials, part.recipe.sections, ids).M;
+    if (load.rotating.empty()) add(M, surface_mass);
+    if (M.rows() > 0) all[load.name] = multiply_symmetric(M, arms);
   }
   return all;
 }
@@ -243,7 +248,7 @@ void add_point_masses(CoordinateBlocks& M, const PartData& part, const Constrain
   M.qq.makeCompressed();
 }
 
-/// Of the cells, reduced parts, point masses and mass matrices.
+/// Of the cells, reduced parts, masses of points and surfaces, and mass matrices.
 rom::MassProperties mass_of(const PartData& part, const Constrained& constrained) {
   MassMoments moments = integrate_mass(part.mesh, part.recipe.materials);
   add_shells(moments, part.mesh, part.recipe.materials, part.recipe.sections);
@@ -257,6 +262,7 @@ rom::MassProperties mass_of(const PartData& part, const Constrained& constrained
       add_point(moments, spec.mass, position + spec.offset, spec.inertia);
     }
   }
+  add_surfaces(moments, part);
   const auto matrices =
       rigid_mass_of(part.recipe, part.mesh, part.numbers, constrained.nodal_rigid);
   if (matrices.topLeftCorner<3, 3>().trace() > 0.0) {
@@ -290,6 +296,8 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
     add(nodal.M, parts.M);
     add(loss, parts.loss);
   }
+  const SparseMatrix surface_mass = surface_mass_matrix(part);
+  add(nodal.M, surface_mass);
   std::vector<fe::FeGasket> curves;
   if (!recipe.gaskets.empty()) {
     GasketStiffness gaskets = gasket_stiffness(part);
@@ -300,7 +308,7 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
   clock.lap("assemble");
   LoadInputs inputs{.momentum = momentum_of(nodal.M, part),
                     .of_fields = momenta_of_fields(nodal.M, part),
-                    .of_shells = rotation_of_shells(part),
+                    .of_sheets = rotation_of_sheets(part, surface_mass),
                     .heat = solve_heat(part, pattern)};
   if (!inputs.heat.empty()) clock.lap("heat");
   CoordinateBlocks K = transform_with_supports(std::move(nodal.K), elimination);

@@ -135,6 +135,11 @@ struct PointMassSpec {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about its centre [kg m2]
 };
 
+/// [[surface_mass]].
+struct SurfaceMassSpec : recipe::SurfaceMass {
+  std::string where;
+};
+
 /// [[heat]] on the mesh.
 struct HeatSpec {
   struct Film {
@@ -220,6 +225,7 @@ struct Recipe {
   std::vector<MeanSpec> means;
   std::vector<NodeSpec> nodes;
   std::vector<PointMassSpec> point_masses;
+  std::vector<SurfaceMassSpec> surface_masses;
   std::vector<HeatSpec> heats;
   std::vector<LoadSpec> loads;
   std::map<std::string, std::map<std::string, double>> cases;  // [[case]]: factors of loads

@@ -131,6 +131,7 @@ Recipe Resolver::resolve(const recipe::File& file, std::vector<PartSpec> parts) 
   out.nodes = each(file.sensors, &Resolver::sensor);
   out.nodes = joined(std::move(out.nodes), each(file.nodes, &Resolver::nodes));
   out.point_masses = each(file.point_masses, &Resolver::point_mass);
+  out.surface_masses = each(file.surface_masses, &Resolver::surface_mass);
   out.heats = each(file.heats, &Resolver::heat);
   out.loads = each(file.loads, &Resolver::load);
   for (const recipe::Case& one : file.cases) out.cases[one.name] = factors(one);

@@ -62,6 +62,7 @@ class Resolver {
   NodeSpec sensor(const recipe::Sensor& sensor, size_t number);
   NodeSpec nodes(const recipe::Nodes& nodes, size_t number);
   PointMassSpec point_mass(const recipe::PointMass& mass, size_t number);
+  SurfaceMassSpec surface_mass(const recipe::SurfaceMass& mass, size_t number);
   HeatSpec heat(const recipe::Heat& heat, size_t number);
   LoadSpec load(const recipe::Load& load, size_t number);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// [[contact]], [[mean]], [[sensor]], [[nodes]], [[point_mass]].
+// [[contact]], [[mean]], [[sensor]], [[nodes]], [[point_mass]], [[surface_mass]].
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -99,6 +99,11 @@ PointMassSpec Resolver::point_mass(const recipe::PointMass& mass, size_t) {
                                       "(each at most the sum of the other two)",
                                       J[0], J[1], J[2]));
   return spec;
+}
+
+SurfaceMassSpec Resolver::surface_mass(const recipe::SurfaceMass& mass, size_t) {
+  names_.check_surface(mass.source, mass.surface);
+  return {mass, where(mass.source, "surface_mass on " + mass.surface)};
 }
 
 }  // namespace clatter::assembly

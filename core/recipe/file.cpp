@@ -93,6 +93,7 @@ const Keys<File>& file_keys() {
         key.tables("sensor", file.sensors, sensor_keys());
         key.tables("nodes", file.nodes, nodes_keys());
         key.tables("point_mass", file.point_masses, point_mass_keys());
+        key.tables("surface_mass", file.surface_masses, surface_mass_keys());
         key.tables("heat", file.heats, heat_keys());
         key.tables("load", file.loads, load_keys());
         key.tables("case", file.cases, case_keys());

@@ -106,4 +106,19 @@ const Keys<PointMass>& point_mass_keys() {
   return keys;
 }
 
+const Keys<SurfaceMass>& surface_mass_keys() {
+  static const Keys<SurfaceMass> keys(
+      "surface_mass", "mass on a surface that adds no stiffness: lining, trim, oil in a pan",
+      [](auto& key, SurfaceMass& mass) {
+        key.source(mass.source);
+        key.text("surface", mass.surface, "a surface of the mesh").required();
+        key.number("area_mass", mass.area_mass, Range::positive(),
+                   "mass per area, in all directions; of a liquid of depth h on a wall with "
+                   "bending waves of wave number k: density tanh(k h) / k")
+            .required()
+            .shown_in("kg/m2");
+      });
+  return keys;
+}
+
 }  // namespace clatter::recipe

@@ -274,6 +274,13 @@ struct PointMass {
   std::vector<double> inertia;  // about its centre: xx, yy, zz, or also xy, yz, zx [kg m2]
 };
 
+/// [[surface_mass]]: mass on a surface that adds no stiffness.
+struct SurfaceMass {
+  Source source;
+  std::string surface;
+  double area_mass = 0.0;  // [kg/m2]
+};
+
 /// [[heat]]: boundary conditions and sources of a steady temperature field.
 struct Heat {
   /// Where the values of a list lie.
@@ -388,6 +395,7 @@ struct File {
   std::vector<Sensor> sensors;
   std::vector<Nodes> nodes;
   std::vector<PointMass> point_masses;
+  std::vector<SurfaceMass> surface_masses;
   std::vector<Heat> heats;
   std::vector<Load> loads;
   std::vector<Case> cases;

@@ -31,6 +31,7 @@ const Keys<Mean>& mean_keys();
 const Keys<Sensor>& sensor_keys();
 const Keys<Nodes>& nodes_keys();
 const Keys<PointMass>& point_mass_keys();
+const Keys<SurfaceMass>& surface_mass_keys();
 const Keys<Heat>& heat_keys();
 const Keys<Load>& load_keys();
 const Keys<Case>& case_keys();
