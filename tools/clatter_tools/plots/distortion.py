@@ -11,36 +11,41 @@ SIDES = ((0.0, "0°"), (90.0, "90°"), (180.0, "180°"), (270.0, "270°"))
 
 
 def draw(files):
-    """Bores and skirts under each load beside each other, around and along, with the unloaded surface (shape files)."""
+    """Bores and skirts under each load beside each other, around and along, with the unloaded surface (shape files): a row for each surface."""
     shapes = style.open_all(files, "shape")
-    columns = max(len(list(shape.get("cases", ()))) for shape in shapes)
-    if not columns:
-        raise BadArtefact(f"{files[0]}: cases: found none, expected at least one")
-    figure = style.plt.figure(figsize=(max(style.WIDTH, 2.6 * columns), 6.0 * len(shapes)))
-    grids = figure.add_gridspec(4 * len(shapes), columns, height_ratios=[1.0, 0.1, 1.1, 0.16] * len(shapes))
-    for k, shape in enumerate(shapes):
-        draw_shape(figure, grids[4 * k:4 * k + 4, :], shape)
+    for shape, path in zip(shapes, files):
+        if not list(shape.get("cases", ())):
+            raise BadArtefact(f"{path}: cases: found none, expected at least one")
+    rows = {}
+    for shape in shapes:
+        rows.setdefault(text(shape.attrs["surface"]), []).extend((shape, name) for name in shape["cases"])
+    columns = max(len(cases) for cases in rows.values())
+    figure = style.plt.figure(figsize=(max(style.WIDTH, 2.6 * columns), 6.0 * len(rows)))
+    grids = figure.add_gridspec(4 * len(rows), columns, height_ratios=[1.0, 0.1, 1.1, 0.16] * len(rows))
+    for k, (surface, cases) in enumerate(rows.items()):
+        draw_surface(figure, grids[4 * k:4 * k + 4, :], surface, sorted(cases, key=largest_deviation))
     return figure
 
 
-def ordered_cases(shape):
-    """The cases by their largest deviation: what acts alone comes before sums, as a rule."""
-    return sorted(shape["cases"], key=lambda name: np.abs(dataset(shape, f"cases/{name}/deviation")).max())
+def largest_deviation(case):
+    """Cases by it: what acts alone comes before sums, as a rule."""
+    shape, name = case
+    return np.abs(dataset(shape, f"cases/{name}/deviation")).max()
 
 
-def draw_shape(figure, place, shape):
+def draw_surface(figure, place, surface, cases):
     """One surface in four rows: outlines, their legend, curves over the height, their legend."""
     grids = place.get_gridspec()
     row = place.rowspan.start
-    height, angle = 1e3 * dataset(shape, "height"), dataset(shape, "angle")
-    covered = dataset(shape, "covered") > 0
-    rows = np.unique(np.linspace(0, len(height) - 1, HEIGHTS).round().astype(int))
     along = None
-    for column, name in enumerate(ordered_cases(shape)):
+    for column, (shape, name) in enumerate(cases):
+        height, angle = 1e3 * dataset(shape, "height"), dataset(shape, "angle")
+        covered = dataset(shape, "covered") > 0
+        rows = np.unique(np.linspace(0, len(height) - 1, HEIGHTS).round().astype(int))
         deviation = 1e6 * dataset(shape, f"cases/{name}/deviation")
         around = figure.add_subplot(grids[row, column], projection="polar")
         draw_around(around, angle, deviation, covered, rows, height)
-        around.set_title(f"{text(shape.attrs['surface'])}: {name}", loc="center", fontsize=10, pad=14)
+        around.set_title(f"{surface}: {name}", loc="center", fontsize=10, pad=14)
         along = figure.add_subplot(grids[row + 2, column], sharey=along)
         draw_along(along, angle, deviation, covered, height)
         if column:
