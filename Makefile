@@ -8,7 +8,7 @@
 #   make docs       the site in build/docs           make lint      format, workflows, self-contained headers; make tidy: clang-tidy
 #   make keys-pages docs/keys/*.md, the keys of each TOML file; make help-pages: man pages and the completion of bash, from --help
 #   make study      what accuracy costs, of beam, slap and timing drive; make study-paper, study-parameters   figures and influences of the slap
-#   make whole      the slap in the whole truck diesel: block, head, oil pan and covers, and what each radiates
+#   make whole      the slap in the whole truck diesel: block, head, oil pan and covers, and what each radiates; make study-whole   its oil pan varied
 #   make deb        a Debian package in build/, for x86-64 processors of two generations
 JOBS ?= $(shell nproc)
 PRESET ?= release
@@ -28,7 +28,7 @@ export ASAN_OPTIONS := alloc_dealloc_mismatch=0:detect_stack_use_after_return=0
 endif
 
 .NOTPARALLEL:
-.PHONY: help setup setup-mpi setup-demo setup-check setup-validate configure build build-mpi build-tests demo whole study study-paper study-parameters check hard check-mpi validate sanitize format lint docs keys-pages help-pages deb levels install tidy workflows clean
+.PHONY: help setup setup-mpi setup-demo setup-check setup-validate configure build build-mpi build-tests demo whole study study-paper study-parameters study-whole check hard check-mpi validate sanitize format lint docs keys-pages help-pages deb levels install tidy workflows clean
 help:
 	@sed -n 's/^# \{0,1\}//;2,12p' Makefile
 
@@ -62,8 +62,8 @@ whole: setup-demo build
 study: setup-demo build
 	@for sample in beam truck_diesel timing_drive; do $(MAKE) --no-print-directory -C samples/$$sample CLATTER_BIN=$(BIN) study || exit $$?; done
 
-# Oil and clearance as in the paper, and one parameter at a time.
-study-paper study-parameters: setup-demo build
+# Oil and clearance as in the paper, one parameter at a time, and the oil pan of the whole engine.
+study-paper study-parameters study-whole: setup-demo build
 	@$(MAKE) --no-print-directory -C samples/truck_diesel CLATTER_BIN=$(BIN) models
 	@$(MAKE) --no-print-directory -C samples/truck_diesel CLATTER_BIN=$(BIN) -j$(JOBS) $@
 

@@ -33,7 +33,8 @@ sys.path.insert(0, str(ROOT / "tools"))
 from clatter_tools import levels, slap, slap_rows  # noqa: E402
 from clatter import fields  # noqa: E402
 
-PARTS = {"block": ["block.rom.h5", "block.sound.h5"], "piston": ["piston.rom.h5"], "bore": ["liner_4.shape.h5"], "skirt": ["skirt.shape.h5"]}
+PARTS = {"block": ["block.rom.h5", "block.sound.h5"], "piston": ["piston.rom.h5"], "bore": ["liner_4.shape.h5", "liner_4_bolted.shape.h5"],
+         "skirt": ["skirt.shape.h5"]}
 SETTINGS = ["*.run.toml", "*.csv", "field.toml"]
 AT = slap_rows.AT
 TO_HZ = 3000.0  # up to which the sample's frequencies hold

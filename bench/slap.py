@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What accuracy costs in piston slap: step tolerance, film grid and elastic effects against seconds.
 
-Runs samples/truck_diesel/slap.run.toml (its reduced models must exist: make demo) repeatedly, changes one
+Runs samples/truck_diesel/slap_10um.run.toml (its reduced models must exist: make demo) repeatedly, changes one
 setting at a time, and compares each run with the finest of its table: the piston's position, the liner's acceleration
 (above 300 Hz, without the block's shaking on its mounts). Two cycles per run, so that a table takes minutes; seconds
 are those of the time stepping, as measured by clatter-dynamics.
@@ -53,7 +53,7 @@ EFFECTS = {
     "no friction": "[contact]\nfriction = false\n",
     "and oil remembered on the liner": slap_large.LINER_OIL,
     "and laws of the oil": OIL_LAWS,
-    "shapes of full load": slap_large.shapes(0.0, SAMPLE),
+    "shapes of full load": slap_large.shapes(10.0, SAMPLE),
     "all": "",
 }
 
@@ -74,7 +74,7 @@ def scene(folder, name, changes, base):
     return path
 
 
-def simulate(folder, binaries, name, changes, recovered=True, base=SAMPLE / "slap.run.toml", to_hz=None):
+def simulate(folder, binaries, name, changes, recovered=True, base=SAMPLE / "slap_10um.run.toml", to_hz=None):
     """Runs one scene; its numbers as a dict. `to_hz`: of the acceleration; without it as far as the reduced models hold."""
     path = scene(folder, name, changes, base)
     run = folder / f"{name}.run.h5"

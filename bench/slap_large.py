@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 SAMPLE = Path(__file__).resolve().parent.parent / "samples" / "truck_diesel"
-SHAPES = ["liner_4.shape.h5", "skirt.shape.h5"]  # make warm
+SHAPES = ["liner_4.shape.h5", "liner_4_bolted.shape.h5", "skirt.shape.h5"]
 STRIPS_ROWS = {1: (10, 30), 4: (5, 15)}  # strips of a sector and rows: 2 sectors, 600 patches in total
 PARTS = {1: "block", 4: "engine"}
 CLEARANCE_UM = {1: 0.0, 4: 10.0}  # smallest warm gap; two of four pistons start at bottom dead centre, where it is smallest
@@ -32,7 +32,7 @@ least_um = 0.2
 
 def shapes(clearance_um, folder="."):
     """[contact] with the shapes of full load, about as in slap_warm.run.toml."""
-    liner, skirt = (Path(folder) / name for name in SHAPES)
+    liner, bolted, skirt = (Path(folder) / name for name in SHAPES)
     return f"""[contact]
 minimum_warm_clearance_um = {clearance_um}
 barrel_apex_mm = -5.0
@@ -42,7 +42,7 @@ barrel_bottom_um = 25.0
 file = "{liner}"
 case = "thermal"
 [[contact.bore_shape]]
-file = "{liner}"
+file = "{bolted}"
 case = "assembly"
 [[contact.skirt_shape]]
 file = "{skirt}"
@@ -95,7 +95,7 @@ def models(folder, binaries, pistons):
     for name in ["piston.rom.h5", "motored.csv", "slap.run.toml", "slap_mixed.run.toml",
                  "engine.run.toml", *SHAPES]:
         if not (SAMPLE / name).exists():
-            sys.exit(f"bench: {SAMPLE / name} is missing: make demo; make -C samples/truck_diesel warm")
+            sys.exit(f"bench: {SAMPLE / name} is missing: make demo")
         shutil.copy2(SAMPLE / name, folder / name)
 
 

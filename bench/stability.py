@@ -9,7 +9,7 @@ other units, other kernels of BLAS, programs of other compilers. Tables (--table
   tolerance  the slap by models of two kernels of BLAS at several tolerances: how far rounding grows, and what the integrator's error is
 
 Each row has the largest differences from the base: the programs of --build with one thread. `--bin clang=build/clang/bin` adds the programs of another
-build. Needs the samples' meshes (slap: `make -C samples/truck_diesel models warm`; drive: `make -C samples/timing_drive models`). Numbers are kept in
+build. Needs the samples' meshes (slap: `make -C samples/truck_diesel models`; drive: `make -C samples/timing_drive models`). Numbers are kept in
 --folder, where an interrupted bench goes on. Half an hour of processor time, of which the beam takes a minute.
 """
 import argparse

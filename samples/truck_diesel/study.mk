@@ -36,12 +36,12 @@ pictures/study-10.png: paper_oil/6_10.field.h5 paper_dry/10.field.h5
 pictures/study-%.png: $(clatter_tool)
 	$(clatter_tool) plot acceleration $(filter %.h5,$^) -o $@
 
-# What the paper lists as influences, one at a time (parameters.toml): `make study-parameters -j2`, 28 short runs and
+# What the paper lists as influences, one at a time with 10 um of clearance (parameters.toml): `make study-parameters -j2`, 28 short runs and
 # the reduced models that they need.
 .PHONY: study-parameters
 study-parameters: parameters.txt
 	@cat parameters.txt
-parameters/sweep.mk: slap.run.toml parameters.toml Makefile study.mk $(clatter_tool)
+parameters/sweep.mk: slap_10um.run.toml slap.run.toml parameters.toml Makefile study.mk $(clatter_tool)
 	$(clatter_tool) sweep $< time.cycles=2 time.film_every_deg=0 --parameters parameters.toml -o $(@D) --field speeds.field.toml
 	touch $@
 ifneq (,$(filter study-parameters parameters.txt,$(MAKECMDGOALS)))

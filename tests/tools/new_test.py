@@ -104,7 +104,7 @@ class Samples(Folder):
             # The scene names its table; the field.toml is of all scenes.
             used = "motored.csv" in (self.folder / "slap/slap.run.toml").read_text() if path.name == "motored.csv" else path.name in planned
             self.assertTrue(used or path.name == "Makefile", path.name)
-        for name in ("slap.field.h5", "slap_dry.field.h5", "liner_4.shape.h5", "skirt.shape.h5", "block.compare.txt"):
+        for name in ("slap.field.h5", "slap_dry.field.h5", "liner_4.shape.h5", "liner_4_bolted.shape.h5", "skirt.shape.h5", "block.compare.txt"):
             self.assertIn(name, planned)
         self.assertLess(len(list((self.folder / "slap").iterdir())), 20)
 

@@ -19,7 +19,7 @@ class HardT12Sample(unittest.TestCase):
     def setUpClass(cls):
         stages.require_stages()
         cls.folder = stages.copy_sample(cls, "truck_diesel")
-        stages.make(cls.folder, "block.rom.h5", "piston.rom.h5", "liner_4.shape.h5", "skirt.shape.h5")
+        stages.make(cls.folder, "block.rom.h5", "piston.rom.h5", "liner_4.shape.h5", "liner_4_bolted.shape.h5", "skirt.shape.h5")
 
     def simulated(self, name, changes, time=""):
         """The completed process of one cycle."""

@@ -14,7 +14,17 @@ from clatter import fields  # noqa: E402
 from clatter_tools import slap, warm_surfaces  # noqa: E402
 
 LUBRICATED, DRY = ("slap", "slap_10um"), ("slap_dry", "slap_dry_10um")
-CYCLE = "analysis/cycle"
+CYCLE, MEAN = "analysis/cycle", "analysis/mean"
+MEAN_FIELD = """body = "block"
+sound = "block.sound.h5"
+
+[frames]
+on = false
+
+[[window]]
+name = "mean"
+cycles = 8
+"""
 
 
 class TruckDiesel(unittest.TestCase):
@@ -24,23 +34,28 @@ class TruckDiesel(unittest.TestCase):
         cls.folder = stages.copy_sample(cls, "truck_diesel")
         stages.make(cls.folder)
         stages.make(cls.folder, "mixed")
+        for run in DRY:  # dry cycles do not repeat (hard case T11): their means count
+            time = "[time]\ncycles = 10\nrecord_cycles = 8\noutput_step_us = 50.0\n"
+            (cls.folder / f"{run}_mean.run.toml").write_text(f'base = "{run}.run.toml"\n{time}')
+            (cls.folder / f"{run}_mean.field.toml").write_text(MEAN_FIELD)
+            stages.make(cls.folder, f"{run}_mean.field.h5")
 
     def certificate(self, name):
         with h5py.File(self.folder / name) as file:
             return dict(file["certificate"].attrs)
 
     def liner(self, run):
-        """(instant, height, end of the ringing, rms above 2 kHz) of the liner's acceleration."""
+        """(instant, height, end of the ringing) of the liner's acceleration."""
         with h5py.File(self.folder / f"{run}.field.h5") as file:
             sensor = fields.pick_sensor(file, CYCLE, "liner")
             signal = slap.band_limited(file, sensor, CYCLE)
-            return (*slap.peak(*signal), slap.rung_out(*signal), slap.high_rms(file, sensor, CYCLE))
+            return (*slap.peak(*signal), slap.rung_out(*signal))
 
-    def levels(self, run, part):
+    def levels(self, run, part, at=CYCLE):
         """Third octaves of the acceleration from 1 to 4 kHz [dB]."""
         with h5py.File(self.folder / f"{run}.field.h5") as file:
-            bands, _ = fields.acceleration_bands(file, fields.pick_sensor(file, CYCLE, part))
-            mid = file[f"{CYCLE}/third_octave/mid_hz"][()]
+            bands, _ = fields.acceleration_bands(file, fields.pick_sensor(file, at, part))
+            mid = file[f"{at}/third_octave/mid_hz"][()]
             return bands[(mid > 900) & (mid < 4500)]
 
     def test_sizes_are_those_of_the_demo(self):
@@ -87,7 +102,7 @@ class TruckDiesel(unittest.TestCase):
 
     def test_energy_is_accounted_for(self):
         for run in (*LUBRICATED, *DRY):
-            self.assertLess(self.certificate(f"{run}.run.h5")["energy_residue"], 1e-4)  # at most 2.4e-5 is reached
+            self.assertLess(self.certificate(f"{run}.run.h5")["energy_residue"], 2e-4)  # at most 9.1e-5 is reached
 
     def test_the_skirt_rubs_around_firing_tdc_at_idle_with_thin_hot_oil(self):
         with h5py.File(self.folder / "slap_mixed.run.h5") as file:
@@ -101,15 +116,13 @@ class TruckDiesel(unittest.TestCase):
         self.assertLess(gap[near].min(), 4 * 0.54e-6)  # where asperities begin to touch
 
     def test_lubricated_cycles_repeat(self):
-        for run, most in zip(LUBRICATED, (2e-6, 20e-6)):  # 0.10 and 1.6 um are reached
+        for run, most in zip(LUBRICATED, (2e-6, 10e-6)):  # 0.19 and 0.77 um are reached
             self.assertLess(self.certificate(f"{run}.run.h5")["periodicity_lateral"], most)
 
-    def test_the_slap_comes_shortly_after_firing_tdc_and_rings_for_two_milliseconds(self):
-        for run in LUBRICATED:
-            with self.subTest(run=run):
-                when, _, quiet, _ = self.liner(run)
-                self.assertTrue(0.1e-3 <= when <= 0.7e-3, when)  # 0.21 and 0.54 ms are reached
-                self.assertTrue(1.2e-3 <= quiet <= 3.0e-3, quiet)  # 1.5 and 2.3 ms
+    def test_with_ten_micrometres_the_slap_comes_shortly_after_firing_tdc_and_rings_for_two_milliseconds(self):
+        when, _, quiet = self.liner("slap_10um")
+        self.assertTrue(0.2e-3 <= when <= 0.4e-3, when)  # 0.28 ms are reached
+        self.assertTrue(1.2e-3 <= quiet <= 3.0e-3, quiet)  # 1.65 ms
 
     def test_ten_micrometres_of_clearance_are_worse_than_none(self):
         self.assertGreater(self.liner("slap_10um")[1], 1.5 * self.liner("slap")[1])  # twice the peak is reached
@@ -130,19 +143,18 @@ class TruckDiesel(unittest.TestCase):
     def test_without_oil_it_is_louder_and_has_more_high_frequency_content(self):
         for oil, dry in zip(LUBRICATED, DRY):
             with self.subTest(clearance=oil):
-                # Dry cycles do not repeat (hard case T11): content is compared, not a peak of one of them. The fourth has 1.4 and
-                # 1.2 times as much above 2 kHz, cycles 3 to 10 1.7 and 1.5 times in the mean (docs/validation.md).
-                self.assertGreater(self.liner(dry)[3], 1.1 * self.liner(oil)[3])
                 for part in ("liner", "block"):
-                    self.assertGreater((self.levels(dry, part) - self.levels(oil, part)).mean(), 1.0, part)  # 1.8 to 5.7 dB
+                    more = self.levels(f"{dry}_mean", part, MEAN) - self.levels(oil, part)
+                    self.assertGreater(more.mean(), 1.0, part)  # 7.6 and 6.8 dB, with 10 um 3.5 and 2.0 are reached
+                    self.assertGreater(more[-3:].mean(), 0.7, part)  # 2.5 to 4 kHz: 7.4 and 7.7, with 10 um 2.5 and 1.2
 
     def test_without_oil_the_sound_power_is_higher_and_what_radiates_it_is_proved(self):
-        def sound(run):
+        def sound(run, at=CYCLE):
             with h5py.File(self.folder / f"{run}.field.h5") as file:
-                return file[f"{CYCLE}/sound"].attrs["power_dba"]
+                return file[f"{at}/sound"].attrs["power_dba"]
 
-        for oil, dry in zip(LUBRICATED, DRY):  # 6.7 and 1.7 dB are reached
-            self.assertGreater(sound(dry) - sound(oil), 1.0, oil)
+        for oil, dry in zip(LUBRICATED, DRY):  # 6.8 and 2.1 dB are reached
+            self.assertGreater(sound(f"{dry}_mean", MEAN) - sound(oil), 1.0, oil)
         self.assertLess(self.certificate("block.sound.h5")["monopole_error_db"], 0.1)  # 0.05 dB are reached
 
     def test_one_number_refines_the_block_to_full_size(self):

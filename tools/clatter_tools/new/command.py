@@ -14,7 +14,8 @@ from ..keys.schema_line import PACKAGE, schema_line
 # The sample of each kind, and which of its files a user reads and edits.
 SAMPLES = {"part": ("beam", ("*.toml", "Makefile", "compare")),
            "slap": ("truck_diesel", ("slap.run.toml", "slap_dry.run.toml", "block.[!m]*.toml", "block.mesh.toml", "block_warm.fe.toml",
-                                     "piston.[!m]*.toml", "piston.mesh.toml", "piston_warm.fe.toml", "field.toml", "motored.csv")),
+                                     "head.*.toml", "engine_bolts.fe.toml", "piston.[!m]*.toml", "piston.mesh.toml",
+                                     "piston_warm.fe.toml", "field.toml", "motored.csv")),
            "drive": ("timing_drive", ("*.toml", "Makefile"))}
 START = {"part": "start with step.run.toml, the scene, and beam.*.toml, its part",
          "slap": "start with slap.run.toml, the scene, and block.*.toml and piston.*.toml, its parts; slap_dry.run.toml changes a few keys of it",

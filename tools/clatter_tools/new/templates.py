@@ -60,16 +60,22 @@ check: block.compare.txt piston.compare.txt
 \t@cat $^
 .DEFAULT_GOAL := all
 .PHONY: all check
-$(runs:=.run.h5): block.rom.h5 piston.rom.h5 liner_4.shape.h5 skirt.shape.h5
+$(runs:=.run.h5): block.rom.h5 piston.rom.h5 liner_4.shape.h5 liner_4_bolted.shape.h5 skirt.shape.h5
 $(runs:=.field.h5): block.sound.h5
 
-# Shapes that temperatures and bolts give to liner and skirt, of block_warm.fe.toml and piston_warm.fe.toml.
+# Shapes that temperatures give to liner and skirt (block_warm.fe.toml, piston_warm.fe.toml), and the bolts of the head to
+# the liner (engine_bolts.fe.toml).
 %_warm.fe.h5: %.mesh.h5 %_warm.fe.toml $(clatter_assembly)
 \t$(call clatter_run,assembly) $< -c $*_warm.fe.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
-block_warm.static.h5: cases := --case assembly
 %_warm.static.h5: %_warm.fe.h5 $(clatter_modal)
-\t$(call clatter_run,modal) statics $< --case motored $(cases) -o $@ --depfile $@.d $(CLATTER_FLAGS)
+\t$(call clatter_run,modal) statics $< --case motored -o $@ --depfile $@.d $(CLATTER_FLAGS)
 liner_4.shape.h5: block_warm.static.h5
+\t$(call clatter_run,modal) shape $< --surface liner_4_bore -o $@ --depfile $@.d $(CLATTER_FLAGS)
+engine_bolts.fe.h5: block.mesh.h5 engine_bolts.fe.toml head.rom.h5 $(clatter_assembly)
+\t$(call clatter_run,assembly) $< -c engine_bolts.fe.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+engine_bolts.static.h5: engine_bolts.fe.h5 $(clatter_modal)
+\t$(call clatter_run,modal) statics $< --case assembly -o $@ --depfile $@.d $(CLATTER_FLAGS)
+liner_4_bolted.shape.h5: engine_bolts.static.h5
 \t$(call clatter_run,modal) shape $< --surface liner_4_bore -o $@ --depfile $@.d $(CLATTER_FLAGS)
 skirt.shape.h5: piston_warm.static.h5
 \t$(call clatter_run,modal) shape $< --surface skirt -o $@ --depfile $@.d $(CLATTER_FLAGS)
