@@ -16,6 +16,14 @@ Eigen::VectorXd pressure_load(Eigen::Index n_nodes, const SurfaceIntegrals& surf
 Eigen::VectorXd resultant_load(Eigen::Index n_nodes, const SurfaceIntegrals& surface,
                                const Eigen::Vector3d& force);
 
+/// A resultant `force` [N] spread around the point `at` [m] of a surface: traction in proportion to
+/// (1 - r^2 / radius^2)^2 at the distance r < radius of it. So it acts at this point, wherever
+/// nodes are; where it does not, as at an edge of the surface, a warning says so. InputError,
+/// beginning with `where`, when no part of the surface is so near.
+Eigen::VectorXd resultant_load(const RowMatrix& nodes, const mesh::Surface& surface,
+                               const Eigen::Vector3d& force, const Eigen::Vector3d& at,
+                               double radius, const std::string& where);
+
 /// A force [N] and moment [N m] on a set, in the model's coordinates (size n). The force is shared
 /// evenly by the nodes of the set. InputError, beginning with `where`, when the set has no
 /// coordinate along a component of it. On a bolt the force's component along it is the tension.

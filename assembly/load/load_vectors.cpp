@@ -119,6 +119,9 @@ Eigen::VectorXd nodal_forces(const PartData& part, const LoadSpec& load, const L
                     .reshaped<Eigen::RowMajor>();
       return pressure_load(n_nodes, part.surfaces.at(load.selection.surface));
     case LoadSpec::Kind::kResultant:
+      if (load.at)
+        return resultant_load(part.mesh.nodes, part.mesh.surface(load.selection.surface),
+                              load.force, *load.at, *load.radius, load.where);
       return resultant_load(n_nodes, part.surfaces.at(load.selection.surface), load.force);
     case LoadSpec::Kind::kNodal: {
       const RowMatrix& field = part.mesh.fields.at(load.field);

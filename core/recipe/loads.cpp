@@ -65,6 +65,15 @@ const Keys<Load>& load_keys() {
     key.number("total", load.total, {}, "force of one unit")
         .needs("kind", "resultant")
         .shown_in("N");
+    key.vector("at", load.at, {}, "a point of the surface around which the force is spread")
+        .needs("kind", "resultant")
+        .in_length_unit();
+    key.number("radius", load.radius, Range::positive(),
+               "how far from that point it is spread, most in the middle; over the whole surface "
+               "without it")
+        .needs("at")
+        .required_with("at")
+        .in_length_unit();
     key.text("set", load.set, "name of a set or point")
         .needs("kind", "force")
         .required_with("kind", "force");

@@ -345,6 +345,8 @@ struct Load {
   Selection selection;                               // pressure, resultant, displacement
   std::optional<Eigen::Vector3d> direction;          // of a resultant or acceleration
   double total = 1.0;                                // resultant [N]
+  std::optional<Eigen::Vector3d> at;                 // resultant: the centre [m] if it is spread
+  std::optional<double> radius;                      // around it, and how far [m]
   std::string set;                                   // force: a set or point
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // [N] per unit
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // [N m] per unit

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -16,6 +17,8 @@
 
 namespace clatter::assembly::testing {
 namespace {
+
+using test::expect_parts;
 
 mesh::Mesh short_bar() { return block_mesh({2, 2, 4}, brick({0.1, 0.2, 0.4})); }
 
@@ -54,6 +57,70 @@ unit = "Pa"
   EXPECT_NEAR(resultant(2), 8.992e-3, 1e-16);
   EXPECT_NEAR(resultant(3), 0.1 * 8.992e-3, 1e-16);
   EXPECT_EQ(model.load_units.at("head"), "Pa");
+}
+
+/// A bar with a force of 3 N along z on its upper end, spread around (33, 71) mm.
+struct SpreadForce {
+  mesh::Mesh mesh;
+  fe::FeModel model;
+  std::vector<std::string> warnings;
+
+  SpreadForce(const std::array<int, 3>& cells, mesh::CellType type, double radius) {
+    BlockOptions options;
+    options.type = type;
+    mesh = block_mesh(cells, brick({0.1, 0.2, 0.4}), options);
+    set_log_sink([&](bool warning, const std::string& text) {
+      if (warning) warnings.push_back(text);
+    });
+    model = build(mesh, fmt::format("[[load]]\nname = \"bolt\"\nkind = \"resultant\"\n"
+                                    "surface = \"z1\"\ndirection = [0.0, 0.0, 1.0]\n"
+                                    "total = 3.0\nat = [0.033, 0.071, 0.4]\nradius = {}\n",
+                                    radius))
+                .model;
+    set_log_sink({});
+  }
+};
+
+TEST(LoadCase, AResultantIsSpreadAroundAPointWhereverNodesAre) {
+  // Nodes are 25 to 100 mm apart: none is at the point.
+  for (const mesh::CellType type : {mesh::CellType::kTet10, mesh::CellType::kHex8})
+    for (const double radius : {0.005, 0.020, 0.030}) {
+      const SpreadForce force({2, 2, 4}, type, radius);
+      const Eigen::VectorXd resultant =
+          force.model.rigid.transpose() * force.model.loads.at("bolt");
+      const Eigen::VectorXd want = (Eigen::VectorXd(6) << 0, 0, 3, 0.213, -0.099, 0).finished();
+      EXPECT_LT((resultant - want).norm(), 3e-3 * radius) << radius;  // arm times force
+      EXPECT_TRUE(force.warnings.empty());
+    }
+}
+
+TEST(LoadCase, ASpreadResultantHasTheTractionThatItSays) {
+  // (1 - r^2 / R^2)^2 has a mean r^2 of R^2 / 4. Quadratic cells have the field r^2 itself.
+  const double R = 0.030;
+  const SpreadForce force({4, 8, 1}, mesh::CellType::kTet10, R);
+  double work = 0.0;
+  for (Eigen::Index a = 0; a < force.mesh.nodes.rows(); ++a)
+    work += force.model.loads.at("bolt")(3 * a + 2) *
+            (force.mesh.nodes.row(a) - Eigen::RowVector3d(0.033, 0.071, 0.4)).squaredNorm();
+  EXPECT_NEAR(work / 3.0, R * R / 4.0, 1e-4 * R * R);  // quadrature at the edge
+}
+
+TEST(LoadCase, ASpreadResultantThatIsCutOffIsToldAndOneBesideTheSurfaceRefused) {
+  const SpreadForce cut({2, 2, 4}, mesh::CellType::kTet10, 0.08);  // the edge is 33 mm away
+  ASSERT_EQ(cut.warnings.size(), 1U);
+  expect_parts(cut.warnings[0],
+               {"load bolt: acts ", " mm from `at`: the surface is curved or ends"});
+  const std::string head =
+      "[[load]]\nname = \"bolt\"\nkind = \"resultant\"\nsurface = \"z1\"\n"
+      "direction = [0.0, 0.0, 1.0]\n";
+  const auto refusal = [&](const std::string& text) {
+    return test::refusal_of([&] { build(short_bar(), head + text); });
+  };
+  expect_parts(refusal("at = [0.05, 0.1, 0.3]\nradius = 0.02\n"),
+               {"load bolt", "at: found no part of the surface within 20 mm",
+                "the centre of the nearest face is 1"});
+  expect_parts(refusal("at = [0.05, 0.1, 0.4]\n"), {"load[0].radius: is missing"});
+  expect_parts(refusal("radius = 0.02\n"), {"load[0].radius: needs at"});
 }
 
 TEST(LoadCase, RotationIsTheMassTimesTheArmOfEachNodeOnCurvedCellsToo) {
