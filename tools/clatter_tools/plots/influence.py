@@ -26,6 +26,9 @@ def picture(found):
         above.set_ylim(min(levels) - 1.0, max(levels) + 1.0)
         below.set_yscale("log")
         below.set_ylim(0.8 * min(peaks), 1.25 * max(peaks))
+        below.yaxis.set_major_locator(style.matplotlib.ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
+        below.yaxis.set_major_formatter(style.matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}"))
+        below.yaxis.set_minor_formatter(style.matplotlib.ticker.NullFormatter())
         below.set_xlabel(one.parameter.unit or one.parameter.name, fontsize=8)
         for axis in (above, below):
             axis.tick_params(labelsize=8)
