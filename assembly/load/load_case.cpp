@@ -3,10 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/units.hpp"
@@ -34,22 +30,12 @@ Eigen::VectorXd resultant_load(Eigen::Index n_nodes, const SurfaceIntegrals& sur
 Eigen::VectorXd resultant_load(const RowMatrix& nodes, const mesh::Surface& surface,
                                const Eigen::Vector3d& force, const Eigen::Vector3d& at,
                                double radius, const std::string& where) {
-  constexpr double kPart = 0.25;  // of the radius: size of a part of a face, by a rule of degree 7
-  constexpr int kMostParts = 64;  // along an edge
-  constexpr double kOff = 0.05;   // of the radius
+  constexpr double kOff = 0.05;  // of the radius
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(nodes.rows());
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  double total = 0.0, nearest = std::numeric_limits<double>::infinity();
-  const auto parts = [&](const auto& x) {
-    const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
-    const double distance = (x.colwise().mean() - at.transpose()).norm();
-    nearest = std::min(nearest, distance);
-    if (distance > radius + size) return 0;
-    return static_cast<int>(
-        std::clamp(std::ceil(size / (kPart * radius)), 1.0, double{kMostParts}));
-  };
-  mesh::for_each_face_point(
-      nodes, surface, parts,
+  double total = 0.0;
+  mesh::for_each_face_point_near(
+      nodes, surface, at, radius,
       [&](const auto& face, const auto& N, const Eigen::Vector3d& x, double w, const auto& normal) {
         const double inside = 1.0 - (x - at).squaredNorm() / (radius * radius);
         if (inside <= 0.0) return;
@@ -59,10 +45,9 @@ Eigen::VectorXd resultant_load(const RowMatrix& nodes, const mesh::Surface& surf
         total += share;
       });
   if (total == 0.0)
-    throw InputError(fmt::format(
-        "{}: at: found no part of the surface within {:.4g} mm, expected a point of it: the centre "
-        "of the nearest face is {:.4g} mm away",
-        where, radius / kMilli, nearest / kMilli));
+    throw InputError(
+        fmt::format("{}: at: found no part of the surface within {:.4g} mm, expected a point of it",
+                    where, radius / kMilli));
   if (const double off = moment.norm() / total; off > kOff * radius)
     warn(
         fmt::format("{}: acts {:.3g} mm from `at`: the surface is curved or ends within the radius",
