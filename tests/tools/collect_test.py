@@ -122,6 +122,13 @@ class Collect(unittest.TestCase):
         self.assertRegex(self.run_command("collect", ".", code=2).stderr, r"^clatter: error: 2000\.run\.toml: not TOML: ")
         self.assertFalse((self.folder / "sweep.h5").exists())
 
+    def test_scenes_with_different_keys_are_sorted(self):
+        for path in self.folder.glob("*.run.toml"):
+            path.unlink()
+        for name, keys in (("base", "a = 0"), ("oil_0", 'a = 0\nrom = "x.rom.h5"'), ("oil_28", 'a = 0\nrom = "y.rom.h5"'), ("other", "a = 0")):
+            (self.folder / f"{name}.run.toml").write_text(f'base = "a.toml"\ntitle = "x"\n{keys}\n')
+        self.assertEqual([name for name, _, _ in collect.scenes(self.folder)], ["base", "other", "oil_0", "oil_28"])
+
     def test_keys_of_nested_tables_are_dotted(self):
         self.assertEqual(collect.flat({"a": {"b": {"c": 1}}, "d": 2}), {"a.b.c": 1, "d": 2})
 

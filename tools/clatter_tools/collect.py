@@ -46,7 +46,7 @@ def scenes(folder):
         found.append((name, str(table.get("title", name)), flat({k: v for k, v in table.items() if k not in ("base", "title")})))
     if not found:
         raise BadArtefact(f"{folder}: found no scene, expected those of `clatter sweep`")
-    return sorted(found, key=lambda scene: [value if isinstance(value, (int, float)) else 0.0 for value in scene[2].values()] + [scene[0]])
+    return sorted(found, key=lambda scene: ([value if isinstance(value, (int, float)) else 0.0 for value in scene[2].values()], scene[0]))
 
 
 def state_of(folder, name):
