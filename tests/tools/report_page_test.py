@@ -139,6 +139,8 @@ class Page(Folder):
             quietest = min(panels, key=panels.get)
             for name in panels:
                 field[f"analysis/cycle/panels/{name}"].attrs.update(sound_power_share=0.7 if name == quietest else -0.1, sound_power_dba=81.26)
+            below_the_ear = field[f"analysis/cycle/panels/{max(panels, key=panels.get)}"].attrs  # it sends power, but takes it up A-weighted
+            below_the_ear.update(sound_power_share=0.05, sound_power_dba=-999.0)
         with h5py.File(self.folder / "dry.run.h5", "r+") as run:
             run["inputs/path"], run["inputs/sha256"] = [b"dry.run.toml", b"wet.run.toml"], [b"0", b"0"]
         with h5py.File(self.folder / "wet.run.h5", "r+") as run:
@@ -149,7 +151,7 @@ class Page(Folder):
         self.assertEqual(data["summary"]["base"], label["wet"])
         table = next(one for one in data["summary"]["tables"] if one["title"].startswith("Sound power that leaves through each panel"))
         self.assertEqual([row[0].rpartition(", ")[2] for row in table["rows"]][0], quietest.replace("_", " "))
-        self.assertEqual([row[-2:] for row in table["rows"]], [["81.3", "70.0"]] + (len(panels) - 1) * [["takes up", "-10.0"]])
+        self.assertEqual([row[-2:] for row in table["rows"]], [["81.3", "70.0"], ["takes up", "5.0"]] + (len(panels) - 2) * [["takes up", "-10.0"]])
         printed = clatter("report", self.folder.name, folder=self.folder.parent)
         self.assertRegex(printed.stdout, r"dry, \S+ +\d\.\d+ +[\d.]+ +81\.3 +70\.0")
 

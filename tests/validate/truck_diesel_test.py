@@ -116,16 +116,16 @@ class TruckDiesel(unittest.TestCase):
         self.assertLess(gap[near].min(), 4 * 0.54e-6)  # where asperities begin to touch
 
     def test_lubricated_cycles_repeat(self):
-        for run, most in zip(LUBRICATED, (2e-6, 10e-6)):  # 0.19 and 0.77 um are reached
-            self.assertLess(self.certificate(f"{run}.run.h5")["periodicity_lateral"], most)
+        for run in LUBRICATED:  # 0.14 and 0.25 um are reached
+            self.assertLess(self.certificate(f"{run}.run.h5")["periodicity_lateral"], 2e-6)
 
     def test_with_ten_micrometres_the_slap_comes_shortly_after_firing_tdc_and_rings_for_two_milliseconds(self):
         when, _, quiet = self.liner("slap_10um")
-        self.assertTrue(0.2e-3 <= when <= 0.4e-3, when)  # 0.28 ms are reached
-        self.assertTrue(1.2e-3 <= quiet <= 3.0e-3, quiet)  # 1.65 ms
+        self.assertTrue(0.3e-3 <= when <= 0.5e-3, when)  # 0.40 ms are reached
+        self.assertTrue(2.0e-3 <= quiet <= 3.5e-3, quiet)  # 2.83 ms
 
     def test_ten_micrometres_of_clearance_are_worse_than_none(self):
-        self.assertGreater(self.liner("slap_10um")[1], 1.5 * self.liner("slap")[1])  # twice the peak is reached
+        self.assertGreater(self.liner("slap_10um")[1], 1.5 * self.liner("slap")[1])  # 264 and 118 m/s2 are reached
 
     def test_the_smallest_warm_gap_is_the_one_that_is_asked_for(self):
         cold = {}
@@ -145,15 +145,15 @@ class TruckDiesel(unittest.TestCase):
             with self.subTest(clearance=oil):
                 for part in ("liner", "block"):
                     more = self.levels(f"{dry}_mean", part, MEAN) - self.levels(oil, part)
-                    self.assertGreater(more.mean(), 1.0, part)  # 7.6 and 6.8 dB, with 10 um 3.5 and 2.0 are reached
-                    self.assertGreater(more[-3:].mean(), 0.7, part)  # 2.5 to 4 kHz: 7.4 and 7.7, with 10 um 2.5 and 1.2
+                    self.assertGreater(more.mean(), 1.0, part)  # 5.5 to 10.5 and 4.7 to 9.0 dB, with 10 um 3.6 to 8.2 and 1.5 to 6.6 are reached
+                    self.assertGreater(more[-3:].mean(), 0.7, part)  # from 2.5 to 4 kHz
 
     def test_without_oil_the_sound_power_is_higher_and_what_radiates_it_is_proved(self):
         def sound(run, at=CYCLE):
             with h5py.File(self.folder / f"{run}.field.h5") as file:
                 return file[f"{at}/sound"].attrs["power_dba"]
 
-        for oil, dry in zip(LUBRICATED, DRY):  # 6.8 and 2.1 dB are reached
+        for oil, dry in zip(LUBRICATED, DRY):  # 7.3 and 3.3 dB are reached
             self.assertGreater(sound(f"{dry}_mean", MEAN) - sound(oil), 1.0, oil)
         self.assertLess(self.certificate("block.sound.h5")["monopole_error_db"], 0.1)  # 0.05 dB are reached
 

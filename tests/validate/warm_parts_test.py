@@ -69,8 +69,8 @@ class WarmParts(unittest.TestCase):
 
     def test_bolts_make_the_liner_oval_and_four_lobed_at_its_upper_end(self):
         found = self.amplitudes("liner_4_bolted.shape.h5", "assembly")
-        self.assertTrue(4.0 < found[:, 2].max() < 10.0, found[:, 2].max())  # 6.2 um are reached; 4.8 to 10 with other curves of the gasket
-        self.assertTrue(3.0 < found[-1, 4] < 6.0, found[-1, 4])             # 4.5 um
+        self.assertTrue(7.0 < found[:, 2].max() < 10.0, found[:, 2].max())  # 8.7 um are reached, 8.9 with cells of 20 mm
+        self.assertTrue(3.0 < found[-1, 4] < 6.0, found[-1, 4])             # 4.9 um
         self.assertGreater(found[-1, 4], 5.0 * found[10, 4])
 
     def test_the_symmetric_piston_has_even_orders_only(self):

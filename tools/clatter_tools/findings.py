@@ -7,7 +7,7 @@ import numpy as np
 from clatter import artefact, fields
 from clatter.histories import cylinders, last_cycle, of
 from . import slap
-from .weighting import loudest_peaks
+from .weighting import SILENCE, loudest_peaks
 
 RUN_HEAD = ["lateral [µm]", "tilt [mrad]", "min gap [µm]", "side force [kN]", "energy residue", "from cycle to cycle [µm]"]
 NOTHING = "-"
@@ -88,12 +88,13 @@ PANELS = "Sound power that leaves through each panel, of boundary elements, with
 
 
 def panel_rows(field):
-    """Rows of PANEL_HEAD, the largest share first; none without the sound powers of panels. A panel may take up what others send."""
+    """Rows of PANEL_HEAD, the largest share first; none without the sound powers of panels. A panel may take up what others send, as a
+    whole or A-weighted."""
     at = f"{fields.level_piece(field)}/panels"
     panels = [(name, panel.attrs) for name, panel in field.get(at, {}).items()
               if name not in ("skin", "exposed") and "sound_power_share" in panel.attrs]
     return [[name.replace("_", " "), f"{of['area_m2']:.3f}", f"{of['erp_dba']:.1f}",
-             f"{of['sound_power_dba']:.1f}" if of["sound_power_share"] > 0.0 else "takes up", f"{100.0 * of['sound_power_share']:.1f}"]
+             f"{of['sound_power_dba']:.1f}" if of["sound_power_share"] > 0.0 and of["sound_power_dba"] > SILENCE else "takes up", f"{100.0 * of['sound_power_share']:.1f}"]
             for name, of in sorted(panels, key=lambda one: -one[1]["sound_power_share"])]
 
 

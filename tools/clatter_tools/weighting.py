@@ -11,10 +11,13 @@ def a_weight(hz):
     return 10.0**0.2 * r * r  # 2.0 dB: 1 at 1 kHz
 
 
+SILENCE = -999.0  # level of no power, or of one that is taken up [dB]
+
+
 def level_dba(hz, power):
-    """A-weighted level of powers [dB(A) re 1 pW]; -999 of none."""
+    """A-weighted level of powers [dB(A) re 1 pW]; SILENCE of none."""
     weighted = np.asarray(power) * a_weight(np.asarray(hz, float))
-    return np.where(weighted > 0.0, 10.0 * np.log10(np.maximum(weighted, 1e-300) / 1e-12), -999.0)
+    return np.where(weighted > 0.0, 10.0 * np.log10(np.maximum(weighted, 1e-300) / 1e-12), SILENCE)
 
 
 def loudest_peaks(hz, power, count, from_hz=0.0):
