@@ -74,7 +74,7 @@ class Schema(unittest.TestCase):
             self.assertEqual(schema_line.kind_of(name), kind)
 
     def test_every_sample_names_the_schema_of_its_kind(self):
-        samples = sorted((SOURCE / "samples").rglob("*.toml"))
+        samples = sorted((SOURCE / "samples").glob("*/*.toml"))  # without those of sweeps and studies, which users make
         self.assertGreater(len(samples), 40)
         for path in samples:
             found = re.match(r"(?:# SPDX.*\n)?#:schema (\S+)\n", path.read_text())
