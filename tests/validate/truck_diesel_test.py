@@ -102,7 +102,7 @@ class TruckDiesel(unittest.TestCase):
 
     def test_energy_is_accounted_for(self):
         for run in (*LUBRICATED, *DRY):
-            self.assertLess(self.certificate(f"{run}.run.h5")["energy_residue"], 2e-4)  # at most 9.1e-5 is reached
+            self.assertLess(self.certificate(f"{run}.run.h5")["energy_residue"], 2e-4)  # at most 3.7e-5 is reached
 
     def test_the_skirt_rubs_around_firing_tdc_at_idle_with_thin_hot_oil(self):
         with h5py.File(self.folder / "slap_mixed.run.h5") as file:

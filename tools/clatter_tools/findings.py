@@ -94,7 +94,8 @@ def panel_rows(field):
     panels = [(name, panel.attrs) for name, panel in field.get(at, {}).items()
               if name not in ("skin", "exposed") and "sound_power_share" in panel.attrs]
     return [[name.replace("_", " "), f"{of['area_m2']:.3f}", f"{of['erp_dba']:.1f}",
-             f"{of['sound_power_dba']:.1f}" if of["sound_power_share"] > 0.0 and of["sound_power_dba"] > SILENCE else "takes up", f"{100.0 * of['sound_power_share']:.1f}"]
+             f"{of['sound_power_dba']:.1f}" if of["sound_power_share"] > 0.0 and of["sound_power_dba"] > SILENCE else "takes up",
+             f"{100.0 * of['sound_power_share']:.1f}"]
             for name, of in sorted(panels, key=lambda one: -one[1]["sound_power_share"])]
 
 

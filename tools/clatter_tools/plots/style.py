@@ -85,7 +85,7 @@ def headline(figure_, title):
     """A title above all axes, smaller where it is wider than the figure."""
     text = figure_.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
     share = text.get_window_extent().width / figure_.bbox.width
-    text.set_fontsize(11 * min(1.0, 0.98 / share))
+    text.set_fontsize(11 / max(1.0, share / 0.98))
 
 
 def nice_ticks(low, high, count=6):
