@@ -23,13 +23,14 @@ sys.path.insert(0, str(ROOT / "tests/validate"))
 from shells import PAN, SOLIDS  # noqa: E402
 
 REFERENCE = np.array(SOLIDS["free, 1.5 mm"])
-SHELLS = (20, 14, 10, 7, 5, 3.5, 2.5)  # sides [mm]
+SHELLS = [("quadrilaterals", size) for size in (20, 14, 10, 7, 5, 3.5, 2.5)]  # cells, sides [mm]
+SHELLS += [("quadratic", size) for size in (30, 20, 14, 10, 7)]
 HEXAHEDRA = ((1, 1), (2, 1), (2, 2))   # level: sides of 10 mm over it; layers
 
 
-def shells(folder, size, program):
+def shells(folder, cells, size, program):
     """The commands that make a.mesh.h5 of shells."""
-    (folder / "pan.mesh.toml").write_text('name = "pan"\nkind = "pan"\n[pan]\nthickness = 1.5\n[mesh]\n'
+    (folder / "pan.mesh.toml").write_text(f'name = "pan"\nkind = "pan"\n[pan]\nthickness = 1.5\ncells = "{cells}"\n[mesh]\n'
                                           f"element_size_mm = {size}\nelements_per_turn = {max(8, round(80 / size))}\n")
     (folder / "a.fe.toml").write_text('[material.steel]\nregions = ["pan"]\nE_gpa = 210\nnu = 0.3\nrho = 7850\n')
     return [[program("mesh"), "pan.mesh.toml", "-o", "a.mesh.h5", "--quiet"]]
@@ -71,7 +72,8 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
     parser.add_argument("--write", action="store_true", help="put the table into docs/accuracy.md")
     given = parser.parse_args()
-    rows = [row(f"shells, {size:g} mm", measured(shells, (size,), given.runs, given.build)) for size in SHELLS]
+    rows = [row(f"{cells if cells == 'quadratic' else 'linear'} shells, {size:g} mm",
+                measured(shells, (cells, size), given.runs, given.build)) for cells, size in SHELLS]
     if PAN.exists():
         rows += [row(f"C3D20R, {10 / level:g} mm, {layers} layer{'s' * (layers > 1)}",
                      measured(hexahedra, (level, layers), given.runs, given.build)) for level, layers in HEXAHEDRA]

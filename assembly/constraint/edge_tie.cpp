@@ -48,7 +48,17 @@ class Footprint {
                       "some",
                       spec.where, spec.edge));
     const std::vector<RowMatrix> directors = fe::shell_directors(mesh.nodes, mesh.shells);
-    for (const mesh::ShellSide& edge : edges) add(edge, directors[edge.block]);
+    for (const mesh::ShellSide& edge : edges) {
+      const mesh::FaceTraits& cell = mesh::traits(mesh.shells[edge.block].type);
+      const Eigen::Index next = (edge.from + 1) % cell.corners;
+      if (cell.order == 1) {
+        add(edge, edge.from, next, directors[edge.block]);
+        continue;
+      }
+      const Eigen::Index middle = cell.corners + edge.from;
+      add(edge, edge.from, middle, directors[edge.block]);
+      add(edge, middle, next, directors[edge.block]);
+    }
   }
 
   std::vector<Foot>& feet() { return feet_; }
@@ -78,9 +88,11 @@ class Footprint {
   }
 
  private:
-  void add(const mesh::ShellSide& edge, const RowMatrix& directors) {
+  /// From node i to node j of the cell.
+  void add(const mesh::ShellSide& edge, Eigen::Index i, Eigen::Index j,
+           const RowMatrix& directors) {
     const mesh::ShellBlock& block = part_.mesh.shells[edge.block];
-    const Eigen::Index n = block.nodes.cols(), c = edge.cell, i = edge.from, j = (i + 1) % n;
+    const Eigen::Index n = block.nodes.cols(), c = edge.cell;
     const auto at = [&](Eigen::Index k) -> Eigen::Vector3d {
       return part_.mesh.nodes.row(block.nodes(c, k)).transpose();
     };
@@ -240,25 +252,52 @@ void say_edge(const TieSpec& spec, const Footprint& footprint, const Projection&
                     spec.name, spec.master, widest, footprint.thickest()));
 }
 
+/// The edge on its master.
+struct TiedEdge {
+  TieSpec spec;
+  Footprint footprint;
+  std::vector<TieFace> master;
+  Projection found;
+  std::map<int32_t, std::vector<const Foot*>> nodes;  // the tied ones, with their feet
+
+  TiedEdge(const PartData& part, const TieSpec& given) : spec(given), footprint(part, given) {
+    if (!spec.distance) spec.distance = kEdgeGap * footprint.thickest();
+    master = tie_faces(part.mesh.nodes, part.mesh.surface(spec.master));
+    found = project(footprint.faces(), master, *spec.distance);
+    footprint.take(found.tied);
+    for (const Foot& foot : footprint.feet())
+      if (foot.outer != nullptr && foot.inner != nullptr) nodes[foot.node].push_back(&foot);
+    if (nodes.empty())
+      throw InputError(
+          fmt::format("{}: found no part of the edge {} that stands on {} within {:.3g} "
+                      "m, expected some",
+                      spec.where, spec.edge, spec.master, *spec.distance));
+  }
+  TiedEdge(const TiedEdge&) = delete;  // feet point into `found`
+  TiedEdge& operator=(const TiedEdge&) = delete;
+};
+
 }  // namespace
+
+Projection project_edge(const PartData& part, const TieSpec& spec) {
+  const TiedEdge edge(part, spec);
+  Projection out;
+  for (const auto& [node, feet] : edge.nodes) {
+    ProjectedNode& mean = out.tied.emplace_back();
+    mean.node = node;
+    for (const Foot* foot : feet)
+      for (const ProjectedNode* corner : {foot->outer, foot->inner})
+        for (const auto& [master, value] : corner->on)
+          mean.on[master] += 0.5 * value / static_cast<double>(feet.size());
+  }
+  return out;
+}
 
 std::vector<Dependence> tie_edge(const PartData& part, const TieSpec& given,
                                  ConstraintGraph& graph) {
   const mesh::Mesh& mesh = part.mesh;
-  TieSpec spec = given;
-  Footprint footprint(part, spec);
-  if (!spec.distance) spec.distance = kEdgeGap * footprint.thickest();
-  const std::vector<TieFace> master = tie_faces(mesh.nodes, mesh.surface(spec.master));
-  const Projection found = project(footprint.faces(), master, *spec.distance);
-  footprint.take(found.tied);
-  std::map<int32_t, std::vector<const Foot*>> nodes;
-  for (const Foot& foot : footprint.feet())
-    if (foot.outer != nullptr && foot.inner != nullptr) nodes[foot.node].push_back(&foot);
-  if (nodes.empty())
-    throw InputError(
-        fmt::format("{}: found no part of the edge {} that stands on {} within {:.3g} "
-                    "m, expected some",
-                    spec.where, spec.edge, spec.master, *spec.distance));
+  const TiedEdge edge(part, given);
+  const TieSpec& spec = edge.spec;
   const int relation = graph.add_relation(spec.where);
   std::vector<Dependence> dependences;
   int held = 0;
@@ -270,10 +309,10 @@ std::vector<Dependence> tie_edge(const PartData& part, const TieSpec& given,
     graph.depend(dof, on.dofs, relation);
     dependences.push_back({dof, std::move(on)});
   };
-  for (const auto& [node, feet] : nodes) {
+  for (const auto& [node, feet] : edge.nodes) {
     std::vector<CornerMotions> corners;
     for (const Foot* foot : feet)
-      corners.push_back(motions_of(footprint, *foot, mesh.nodes, spec.where));
+      corners.push_back(motions_of(edge.footprint, *foot, mesh.nodes, spec.where));
     PointMotion u = displacement_of(feet, corners);
     for (int d = 0; d < 3; ++d) depend(3 * node + d, std::move(u[d]));
     const Rotation rotation(feet, corners);
@@ -281,7 +320,7 @@ std::vector<Dependence> tie_edge(const PartData& part, const TieSpec& given,
     for (int r = 0; r < 3; ++r)
       if (rotation.depends(r)) depend(first + r, rotation.row(r, first));
   }
-  say_edge(spec, footprint, found, master, nodes.size(), held);
+  say_edge(spec, edge.footprint, edge.found, edge.master, edge.nodes.size(), held);
   return dependences;
 }
 

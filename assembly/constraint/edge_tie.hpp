@@ -19,8 +19,14 @@
 #include "assembly/constraint/constraint_graph.hpp"
 #include "assembly/constraint/elimination.hpp"
 #include "assembly/constraint/part_data.hpp"
+#include "assembly/coupling/rigid_coupling.hpp"
+#include "assembly/tie/mortar.hpp"
 
 namespace clatter::assembly {
+
+/// The edge's nodes as the means of their footprint: what their temperatures follow. InputError as
+/// tie_edge().
+Projection project_edge(const PartData& part, const TieSpec& spec);
 
 /// The dependences of the edge's nodes. InputError where the node set has no free edge of a shell,
 /// and where none lies on the master.

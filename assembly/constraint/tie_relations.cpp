@@ -44,10 +44,9 @@ double half_thickness(const PartData& part) {
 /// The faces seen from their other side.
 std::vector<TieFace> turned_faces(const mesh::Mesh& mesh, const std::string& surface) {
   mesh::Surface other = mesh.surface(surface);
-  for (mesh::FaceBlock& block : other.faces) {
-    const int corners = mesh::traits(block.type).corners;
-    block.nodes.leftCols(corners).rowwise().reverseInPlace();
-  }
+  for (mesh::FaceBlock& block : other.faces)
+    for (Eigen::Index f = 0; f < block.nodes.rows(); ++f)
+      mesh::turn_over(block.type, block.nodes.row(f));
   return tie_faces(mesh.nodes, other);
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "assembly/constraint/constraint_graph.hpp"
+#include "assembly/constraint/edge_tie.hpp"
 #include "assembly/constraint/elimination.hpp"
 #include "assembly/constraint/tie_relations.hpp"
 #include "assembly/heat/heat_bodies.hpp"
@@ -92,16 +93,18 @@ Elimination eliminate_temperatures(const PartData& part, const HeatSpec& spec,
                                    const FixedNodes& fixed, HeatBodies& bodies, SparseMatrix& K) {
   FollowingNodes following(part, fixed);
   for (const TieSpec& tie : part.recipe.ties) {
-    if (!tie.edge.empty())
+    const HeatSpec::Contact* contact = contact_of(spec, tie);
+    if (!tie.edge.empty() && contact != nullptr)
       throw InputError(
-          fmt::format("{}: found the tie {} of an edge, through which no heat flows, "
-                      "expected ties of faces alone",
+          fmt::format("{}: found a contact of the tie {}, which is one of an edge, expected ties "
+                      "of faces alone",
                       spec.where, tie.name));
     TieSpec resolved = tie;
-    const Projection found = project_tie(part, resolved);
+    const Projection found =
+        tie.edge.empty() ? project_tie(part, resolved) : project_edge(part, tie);
     for (const ProjectedNode& row : found.tied)
       for (const auto& [node, value] : row.on) bodies.join(row.node, node);
-    if (const HeatSpec::Contact* contact = contact_of(spec, tie))
+    if (contact != nullptr)
       K += contact_conduction(part, tie, found, contact->conductance);
     else
       follow_tie(tie, found, following);

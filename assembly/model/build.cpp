@@ -106,7 +106,9 @@ std::map<std::string, Eigen::VectorXd> rotation_of_sheets(const PartData& part,
       arms.segment<3>(3 * a) = load.axis.arm(mesh.nodes.row(a).transpose());
     SparseMatrix M;
     if (!rotating.shells.empty())
-      M = fe::assemble_shells(rotating, part.recipe.materials, part.recipe.sections, ids).M;
+      M = fe::assemble_shells(rotating, part.recipe.materials, part.recipe.sections, ids,
+                              fe::MassForm::kNodes)
+              .M;
     if (load.rotating.empty()) add(M, surface_mass);
     if (M.rows() > 0) all[load.name] = multiply_symmetric(M, arms);
   }

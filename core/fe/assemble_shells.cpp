@@ -58,7 +58,7 @@ bool moves_rigidly(const std::vector<int32_t>& rigid_of_node, const mesh::ShellB
                                Eigen::Index cell) {
   refuse_shell(mesh, block, cell,
                fmt::format("found it folded, concave or without area, expected a convex {}",
-                           block.type == mesh::FaceType::kTri3 ? "triangle" : "quadrilateral"));
+                           mesh::traits(block.type).corners == 3 ? "triangle" : "quadrilateral"));
 }
 
 /// Of materials with directions, direction 1 has a projection on each cell.

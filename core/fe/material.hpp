@@ -27,8 +27,10 @@ struct IntegrationChoice {
   Integration wedge15 = Integration::kFull;
 };
 
-/// Consistent mass, or HRZ lumping: its diagonal scaled to the same total (lump_hrz).
-enum class MassForm { kConsistent, kHrz };
+/// Consistent mass, or HRZ lumping: its diagonal scaled to the same total (lump_hrz). kNodes, of
+/// shells: consistent, by the shape functions of the nodes alone, whatever else moves in a cell;
+/// it makes forces of accelerations.
+enum class MassForm { kConsistent, kHrz, kNodes };
 
 /// A linear elastic material. Isotropic: sigma = lambda tr(eps) I + 2 mu eps.
 struct Material {

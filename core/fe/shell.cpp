@@ -11,18 +11,29 @@ namespace clatter::fe {
 namespace {
 
 using SectionMatrix = Eigen::Matrix<double, kShellStrains, kShellStrains>;
-using InnerByNodes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kShellInner, 24>;
-using NodeVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 24, 1>;
+using InnerByNodes =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kShellInner, kShellDofs>;
+using NodeVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kShellDofs, 1>;
 using InnerVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kShellInner, 1>;
-constexpr int kMaxRows = 6 * kShellStrains;  // of all points
+using ColumnSquare =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kShellColumns, kShellColumns>;
+constexpr int kMaxRows = 9 * kShellStrains;  // of all points
 using PointRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxRows, kShellColumns>;
 using Strains = Eigen::Matrix<double, kShellStrains, 1>;
 using PointStrains = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRows, 1>;
 
 template <class Body>
 auto with_theory(const MidSurface& mid, const Body& body) {
-  if (mid.type == mesh::FaceType::kTri3) return body(TriangleShell(mid));
-  return body(QuadShell(mid));
+  switch (mid.type) {
+    case mesh::FaceType::kTri3:
+      return body(TriangleShell(mid));
+    case mesh::FaceType::kTri6:
+      return body(Triangle6Shell(mid));
+    case mesh::FaceType::kQuad8:
+      return body(Quad8Shell(mid));
+    default:
+      return body(QuadShell(mid));
+  }
 }
 
 double ratio_at(const ShellCell& cell, const ShellWeights& h) {
@@ -98,7 +109,7 @@ Condensed condense(const ShellTheory& theory, const ShellCell& cell, const Eigen
     force.middleRows<kShellStrains>(kShellStrains * q) =
         (weight * section_at(cell.stiffness, ratio_at(cell, p.h))).lazyProduct(B);
   }
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kShellColumns, kShellColumns> K(c, c);
+  ColumnSquare K(c, c);
   K.noalias() = strain.transpose() * force;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kShellInner, kShellInner> own =
       K.bottomRightCorner(c - n, c - n);
@@ -116,23 +127,24 @@ Condensed condense(const ShellTheory& theory, const ShellCell& cell, const Eigen
   return out;
 }
 
-using NodeSquare = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
+using MovingSquare =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kShellNodes + 1, kShellNodes + 1>;
 
-/// int h_i h_j of ShellMass.
+/// int m_i m_j of ShellMass.
 struct NodalMass {
   Eigen::MatrixXd total, moment, rotary;
 };
 
-NodalMass nodal_mass(const MidSurface& mid, const ShellCell& cell) {
+/// @param n of what moves, from the first.
+NodalMass nodal_mass(const MidSurface& mid, const ShellCell& cell, Eigen::Index n) {
   const mesh::FaceRule& rule = mesh::face_rule(mid.type);
-  const Eigen::Index n = mid.x.rows();
   NodalMass out;
   for (Eigen::MatrixXd* m : {&out.total, &out.moment, &out.rotary}) m->setZero(n, n);
   const ShellMass& of = cell.stiffness.mass;
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
     const SurfacePoint p(mid, rule.points.row(q).transpose());
     const double ratio = ratio_at(cell, p.h), weight = rule.weights(q) * p.area;
-    const NodeSquare area = weight * p.h * p.h.transpose();
+    const MovingSquare area = weight * p.m.head(n) * p.m.head(n).transpose();
     out.total += (of.area_mass + ratio * (of.total - of.area_mass)) * area;
     out.moment += ratio * ratio * of.moment * area;
     out.rotary += ratio * ratio * ratio * of.rotary * area;
@@ -141,16 +153,17 @@ NodalMass nodal_mass(const MidSurface& mid, const ShellCell& cell) {
 }
 
 /// Of the mid-surface. A rotation about a director moves no mass: its inertia is that of
-/// w = theta x V.
-ShellMatrix mass_of(const MidSurface& mid, const ShellCell& cell, MassForm form) {
-  NodalMass nodal = nodal_mass(mid, cell);
+/// w = theta x V. The centre of a quad8 moves by `inner` with the nodes in a consistent mass alone.
+ShellMatrix mass_of(const MidSurface& mid, const ShellCell& cell, MassForm form,
+                    const InnerByNodes& inner) {
+  const Eigen::Index n = form == MassForm::kConsistent ? mid.moving_V.rows() : mid.x.rows();
+  NodalMass nodal = nodal_mass(mid, cell, n);
   if (form == MassForm::kHrz)
     for (Eigen::MatrixXd* m : {&nodal.total, &nodal.moment, &nodal.rotary})
       if (m->trace() != 0.0) lump_hrz(*m);
-  const Eigen::Index n = mid.x.rows();
-  std::array<Eigen::Matrix3d, 4> turned;  // theta x V = turned theta
-  for (Eigen::Index i = 0; i < n; ++i) turned[i] = cross_matrix(mid.V.row(i));
-  ShellMatrix M = ShellMatrix::Zero(6 * n, 6 * n);
+  std::array<Eigen::Matrix3d, kShellNodes + 1> turned;  // theta x V = turned theta
+  for (Eigen::Index i = 0; i < n; ++i) turned[i] = cross_matrix(mid.moving_V.row(i));
+  ColumnSquare M = ColumnSquare::Zero(6 * n, 6 * n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
       M.block<3, 3>(6 * i, 6 * j).diagonal().setConstant(nodal.total(i, j));
@@ -159,7 +172,12 @@ ShellMatrix mass_of(const MidSurface& mid, const ShellCell& cell, MassForm form)
       M.block<3, 3>(6 * i + 3, 6 * j + 3) =
           nodal.rotary(i, j) * turned[i].transpose().lazyProduct(turned[j]);
     }
-  return M;
+  const Eigen::Index nodes = 6 * mid.x.rows(), own = M.rows() - nodes;
+  if (own == 0) return M;
+  ShellMatrix out = M.topLeftCorner(nodes, nodes) + M.topRightCorner(nodes, own).lazyProduct(inner);
+  out += inner.transpose().lazyProduct(M.bottomLeftCorner(own, nodes) +
+                                       M.bottomRightCorner(own, own).lazyProduct(inner));
+  return out;
 }
 
 /// From DoFs of the mid-surface to those of the nodes: u_mid = u + theta x (offset V).
@@ -178,9 +196,9 @@ bool compute_shell(const ShellCell& cell, MassForm form, ShellMatrices& out) {
   const MidSurface mid(cell);
   return with_theory(mid, [&](const ShellTheory& theory) {
     if (!theory.is_shell()) return false;
-    const ShellMatrix K = condense(theory, cell, {}).K;
-    out.stiffness = 0.5 * (K + K.transpose());
-    out.mass = mass_of(mid, cell, form);
+    const Condensed condensed = condense(theory, cell, {});
+    out.stiffness = 0.5 * (condensed.K + condensed.K.transpose());
+    out.mass = mass_of(mid, cell, form, condensed.inner);
     to_nodes(cell, out.stiffness);
     to_nodes(cell, out.mass);
     return true;

@@ -11,6 +11,10 @@
 //   quad4  MITC4+: shear tied at the sides (Dvorkin and Bathe 1984), the membrane free of what a
 //          warped cell adds (Ko, Lee and Bathe 2017), four enhanced membrane strains (Simo and
 //          Rifai 1990)
+//   tri6   the membrane of MITC6 (Lee and Bathe 2004), the bending of MITC7, whose rotations have a
+//          bubble (Bathe, Brezzi and Cho 1989)
+//   quad8  MITC9: strains tied at points (Bucalem and Bathe 1993); the ninth node, at the centre,
+//          moves beside the others as its equilibrium asks
 #include <Eigen/Core>
 
 #include "core/fe/shell_section.hpp"
@@ -18,11 +22,14 @@
 
 namespace clatter::fe {
 
-using ShellNodes = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 4, 3>;
-using ShellMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 24, 24>;
+inline constexpr int kShellNodes = mesh::kMaxFaceNodes, kShellDofs = 6 * kShellNodes;  // at most
+
+using ShellNodes = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kShellNodes, 3>;
+using ShellMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kShellDofs, kShellDofs>;
 
 struct ShellCell {
-  mesh::FaceType type = mesh::FaceType::kQuad4;    // or kTri3
+  mesh::FaceType type = mesh::FaceType::kQuad4;
   ShellNodes x;                                    // n x 3 [m]
   ShellNodes directors;                            // n x 3, unit
   ShellStiffness stiffness;                        // at `thickness`
@@ -42,7 +49,8 @@ struct ShellMatrices {
 /// The mid-surface has the nodes x_i + offset V_i, which move as u_i + theta_i x (offset V_i).
 /// Where the sheet is `ratio` as thick, A, S and the mass of the material have this factor, B and
 /// the moment of the mass its square, D and the rotary inertia its cube. The mass is consistent,
-/// with the rotary inertia of theta x V: none about V. kHrz: it has 6 x 6 blocks at the nodes
+/// with the rotary inertia of theta x V: none about V; the centre of a quad8 has its share, else
+/// thin curved sheet would be too soft by several per cent. kHrz: it has 6 x 6 blocks at the nodes
 /// alone.
 /// @return false where the cell is no shell: concave, folded (to a triangle, or a director more
 /// than 60 degrees off the normal), without area, or not finite.
@@ -59,7 +67,7 @@ struct ShellStrains {
 
 /// Those beside a free sheet's, of displacements `u` (6n), also of what the cell has beside its
 /// nodes.
-/// @param at r, s of the reference cell: -1 to 1 of a quad4; 0 to 1 of a tri3.
+/// @param at r, s of the reference cell: -1 to 1 of quadrilaterals; 0 to 1 of triangles.
 /// @param dT of shell_thermal_force(), or empty.
 ShellStrains shell_strains(const ShellCell& cell, const Eigen::VectorXd& u,
                            const Eigen::Vector2d& at, const Eigen::VectorXd& dT = {});

@@ -5,26 +5,34 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/mesh/shape.hpp"
+
 namespace clatter::fe {
 namespace {
 
 constexpr double kRounding = 1e-6;  // of decks with seven digits
 
-/// A corner of a cell.
+/// A node of a cell.
 struct Corner {
   int32_t block, cell, node;
 };
 
-/// Unit normals of the cells at their corners, rows and columns as the directors.
-RowMatrix corner_normals(const RowMatrix& nodes, const mesh::ShellBlock& block) {
+/// Unit normals of the cells at their nodes, rows and columns as the directors.
+RowMatrix cell_normals(const RowMatrix& nodes, const mesh::ShellBlock& block) {
   const Eigen::Index n = block.nodes.cols();
+  std::vector<mesh::FaceShape> shapes;
+  const Eigen::MatrixX2d reference = mesh::reference_nodes(block.type);
+  for (Eigen::Index i = 0; i < n; ++i)
+    shapes.push_back(mesh::face_shape(block.type, reference.row(i).transpose()));
   RowMatrix out(block.nodes.rows(), 3 * n);
   for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
     for (Eigen::Index i = 0; i < n; ++i) {
-      const auto x = [&](Eigen::Index k) -> Eigen::Vector3d {
-        return nodes.row(block.nodes(c, k % n)).transpose();
-      };
-      const Eigen::Vector3d normal = (x(i + 1) - x(i)).cross(x(i + n - 1) - x(i));
+      Eigen::Matrix<double, 3, 2> tangent = Eigen::Matrix<double, 3, 2>::Zero();
+      // From the first node: far from the origin differences of positions would lose digits.
+      for (Eigen::Index k = 1; k < n; ++k)
+        tangent += (nodes.row(block.nodes(c, k)) - nodes.row(block.nodes(c, 0))).transpose() *
+                   shapes[i].gradient.row(k);
+      const Eigen::Vector3d normal = tangent.col(0).cross(tangent.col(1));
       out.row(c).segment<3>(3 * i) = (normal / normal.norm()).transpose();
     }
   return out;
@@ -57,7 +65,7 @@ std::vector<RowMatrix> shell_directors(const RowMatrix& nodes,
                                        const std::vector<mesh::ShellBlock>& shells) {
   const double fold = std::cos(20.0 * std::numbers::pi / 180.0);
   std::vector<RowMatrix> normals;
-  for (const mesh::ShellBlock& block : shells) normals.push_back(corner_normals(nodes, block));
+  for (const mesh::ShellBlock& block : shells) normals.push_back(cell_normals(nodes, block));
   const CornersOfNodes by_node = corners_of_nodes(nodes.rows(), shells);
   const auto normal_at = [&](const Corner& corner) -> Eigen::Vector3d {
     return normals[corner.block].row(corner.cell).segment<3>(3 * corner.node).transpose();

@@ -51,21 +51,22 @@ void for_each_sheet_point(const mesh::Mesh& mesh, const std::vector<Material>& m
 SparseMatrix sheet_conduction(const mesh::Mesh& mesh, const std::vector<Material>& materials,
                               const std::vector<ShellSection>& sections) {
   std::vector<Eigen::Triplet<double, int32_t>> entries;
-  for_each_sheet_point(mesh, materials, sections,
-                       [&](const mesh::ShellBlock& block, Eigen::Index c, const ShellCell& cell,
-                           const SurfacePoint& point, double weight) {
-                         Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 4> slope(2, point.h.size());
-                         slope.row(0) = point.h_r.transpose();
-                         slope.row(1) = point.h_s.transpose();
-                         slope = point.to_axes * slope;
-                         const Eigen::Matrix2d k = conductance_of(
-                             sections[block.region], materials[block.region], cell.thickness);
-                         const Eigen::MatrixXd K = weight * slope.transpose() * k * slope;
-                         for (Eigen::Index i = 0; i < K.rows(); ++i)
-                           for (Eigen::Index j = 0; j < K.cols(); ++j)
-                             if (block.nodes(c, i) >= block.nodes(c, j))
-                               entries.emplace_back(block.nodes(c, i), block.nodes(c, j), K(i, j));
-                       });
+  for_each_sheet_point(
+      mesh, materials, sections,
+      [&](const mesh::ShellBlock& block, Eigen::Index c, const ShellCell& cell,
+          const SurfacePoint& point, double weight) {
+        Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kShellNodes> slope(2, point.h.size());
+        slope.row(0) = point.h_r.transpose();
+        slope.row(1) = point.h_s.transpose();
+        slope = point.to_axes * slope;
+        const Eigen::Matrix2d k =
+            conductance_of(sections[block.region], materials[block.region], cell.thickness);
+        const Eigen::MatrixXd K = weight * slope.transpose() * k * slope;
+        for (Eigen::Index i = 0; i < K.rows(); ++i)
+          for (Eigen::Index j = 0; j < K.cols(); ++j)
+            if (block.nodes(c, i) >= block.nodes(c, j))
+              entries.emplace_back(block.nodes(c, i), block.nodes(c, j), K(i, j));
+      });
   SparseMatrix K(mesh.nodes.rows(), mesh.nodes.rows());
   K.setFromTriplets(entries.begin(), entries.end());
   return K;

@@ -56,7 +56,7 @@ bool QuadShell::is_shell() const {
   return ShellTheory::is_shell() && skew_.lpNorm<1>() <= kSkew;
 }
 
-ShellRows<3> QuadShell::membrane(const Eigen::Vector2d& at) const {
+ShellRows<3> QuadShell::unwarped(const Eigen::Vector2d& at) const {
   const double r = at(0), s = at(1);
   ShellRows<3> e(3, columns());
   e.row(0) = constant_r_ + bilinear_ + s * linear_r_ + (s * s - 1.0) * replaced_;
@@ -70,7 +70,7 @@ ShellStrain QuadShell::strain(const SurfacePoint& p) const {
   ShellRows<2> shear(2, columns());
   shear.row(0) = 0.5 * ((1.0 + s) * shear_a_ + (1.0 - s) * shear_c_);
   shear.row(1) = 0.5 * ((1.0 + r) * shear_d_ + (1.0 - r) * shear_b_);
-  ShellStrain strain = in_axes(p, membrane(p.at), curvature(p), shear);
+  ShellStrain strain = in_axes(p, unwarped(p.at), curvature(p), shear);
   // Enhanced strains have the mean zero over the cell, thus pass patch tests (Simo and Rifai 1990).
   Eigen::Matrix<double, 3, 4> enhanced;
   enhanced << r, 0.0, 0.0, 0.0, 0.0, s, 0.0, 0.0, 0.0, 0.0, 0.5 * r, 0.5 * s;

@@ -8,6 +8,7 @@
 
 #include "core/fe/assemble_shells.hpp"
 #include "core/fe/shell_directors.hpp"
+#include "core/mesh/shape.hpp"
 
 namespace clatter::fe {
 namespace {
@@ -38,34 +39,52 @@ Voigt stress_at(const ShellStrains& strains, const ShellStiffness& sheet, const 
   return out;
 }
 
-using Corners = std::array<std::pair<Voigt, Voigt>, 4>;  // outer, inner
+using NodeStress = std::array<std::pair<Voigt, Voigt>, kShellNodes>;  // outer, inner
+
+/// Points of a cell, and values at its nodes (rows) by those there (columns).
+struct Extrapolation {
+  Eigen::MatrixX2d points;
+  Eigen::MatrixXd to_nodes;
+};
+
+Extrapolation extrapolation_of(mesh::FaceType type) {
+  const Eigen::MatrixX2d nodes = mesh::reference_nodes(type);
+  // The functions of the linear cell with corners at the points.
+  const auto through = [&](const Eigen::Vector2d& origin, double size, mesh::FaceType linear) {
+    Extrapolation out;
+    out.points = (size * mesh::reference_nodes(linear)).rowwise() + origin.transpose();
+    out.to_nodes.resize(nodes.rows(), out.points.rows());
+    for (Eigen::Index a = 0; a < nodes.rows(); ++a)
+      out.to_nodes.row(a) =
+          mesh::face_shape(linear, (nodes.row(a).transpose() - origin) / size).value.transpose();
+    return out;
+  };
+  switch (type) {
+    case mesh::FaceType::kTri3:
+      return {Eigen::RowVector2d::Constant(1.0 / 3.0), Eigen::VectorXd::Ones(3)};
+    case mesh::FaceType::kTri6:
+      return through(Eigen::Vector2d::Constant(1.0 / 6.0), 0.5, mesh::FaceType::kTri3);
+    default:
+      return through(Eigen::Vector2d::Zero(), 1.0 / std::sqrt(3.0), mesh::FaceType::kQuad4);
+  }
+}
 
 /// @param dT of the nodes, or empty.
-Corners corner_stress(const ShellCell& cell, const FaceLaws& laws, const Eigen::VectorXd& u,
-                      const Eigen::VectorXd& dT) {
+NodeStress node_stress(const ShellCell& cell, const Extrapolation& by, const FaceLaws& laws,
+                       const Eigen::VectorXd& u, const Eigen::VectorXd& dT) {
   const auto both = [&](const Eigen::Vector2d& at) {
     const ShellStrains strains = shell_strains(cell, u, at, dT);
     const double z = 0.5 * cell.thickness * strains.ratio;
     return std::pair(stress_at(strains, cell.stiffness, laws.outer, z),
                      stress_at(strains, cell.stiffness, laws.inner, -z));
   };
-  Corners out;
-  if (cell.type == mesh::FaceType::kTri3) {
-    out.fill(both(Eigen::Vector2d::Constant(1.0 / 3.0)));
-    return out;
-  }
-  constexpr std::array<std::array<double, 2>, 4> kCorners = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-  const double point = 1.0 / std::sqrt(3.0);
-  Corners at_points;
-  for (size_t q = 0; q < 4; ++q)
-    at_points[q] = both({point * kCorners[q][0], point * kCorners[q][1]});
-  for (size_t c = 0; c < 4; ++c) {
-    out[c] = {Voigt::Zero(), Voigt::Zero()};
-    for (size_t q = 0; q < 4; ++q) {
-      const double share = 0.25 * (1.0 + kCorners[c][0] * kCorners[q][0] / point) *
-                           (1.0 + kCorners[c][1] * kCorners[q][1] / point);
-      out[c].first += share * at_points[q].first;
-      out[c].second += share * at_points[q].second;
+  NodeStress out;
+  out.fill({Voigt::Zero(), Voigt::Zero()});
+  for (Eigen::Index q = 0; q < by.points.rows(); ++q) {
+    const auto [outer, inner] = both(by.points.row(q).transpose());
+    for (Eigen::Index a = 0; a < by.to_nodes.rows(); ++a) {
+      out[a].first += by.to_nodes(a, q) * outer;
+      out[a].second += by.to_nodes(a, q) * inner;
     }
   }
   return out;
@@ -132,14 +151,15 @@ std::vector<RegionStress> shell_stress(const RowMatrix& nodes, const FeCells& ce
     const Material& material = cells.materials[block.region];
     const ShellSection& section = cells.sections[block.region];
     const FaceLaws laws = face_laws(section, material);
+    const Extrapolation by = extrapolation_of(block.type);
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       const ShellCell cell = shell_cell(mesh, block, c, directors[b], section, material);
       Eigen::VectorXd rise;
       if (dT.size() > 0) rise = dT(block.nodes.row(c));
-      const Corners corners = corner_stress(cell, laws, moved(block, c, u, turning, theta), rise);
+      const NodeStress stress =
+          node_stress(cell, by, laws, moved(block, c, u, turning, theta), rise);
       for (Eigen::Index a = 0; a < block.nodes.cols(); ++a)
-        add(regions[block.region][block.nodes(c, a)], cell.directors.row(a).transpose(),
-            corners[a]);
+        add(regions[block.region][block.nodes(c, a)], cell.directors.row(a).transpose(), stress[a]);
     }
   }
   std::vector<RegionStress> out;

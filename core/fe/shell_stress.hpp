@@ -3,10 +3,10 @@
 // Stresses at the two faces of shells: sigma = C (e +- t/2 k) under plane stress, e and k without
 // thermal strains, C of the layer there.
 //
-// Strains of a quadrilateral are evaluated at its 2 x 2 points and extrapolated to the corners,
-// those of a triangle are taken at its centre. At a node they are averaged over the cells of one
-// region that share its director; where a sheet is folded or sheets meet, the largest by von Mises
-// counts.
+// Strains of a quadrilateral are evaluated at its 2 x 2 points, those of a tri6 at three, and
+// extrapolated to the nodes; those of a tri3 are taken at its centre. At a node they are averaged
+// over the cells of one region that share its director; where a sheet is folded or sheets meet, the
+// largest by von Mises counts.
 #include <vector>
 
 #include "core/fe/fe_cells.hpp"

@@ -13,13 +13,8 @@ constexpr double kThird = 1.0 / 3.0;
 }  // namespace
 
 TriangleShell::TriangleShell(const MidSurface& mid)
-    : ShellTheory(mid, Eigen::Vector2d::Constant(kThird), 2),
-      V_(mid.V.colwise().mean().transpose()) {
-  const SurfacePoint& p = centre_;
-  membrane_.resize(3, columns());
-  membrane_.row(0) = translation(p.x_r, p.h_r);
-  membrane_.row(1) = translation(p.x_s, p.h_s);
-  membrane_.row(2) = 0.5 * (translation(p.x_r, p.h_s) + translation(p.x_s, p.h_r));
+    : ShellTheory(mid, Eigen::Vector2d::Constant(kThird), 2) {
+  membrane_ = membrane(centre_);
   const ShellRows<2> A = shear_at(1.0 / 6.0, 2.0 / 3.0), B = shear_at(2.0 / 3.0, 1.0 / 6.0),
                      C = shear_at(1.0 / 6.0, 1.0 / 6.0);
   mean_r_ = 2.0 / 3.0 * (B.row(0) - 0.5 * B.row(1)) + kThird * (C.row(0) + C.row(1));
@@ -29,17 +24,12 @@ TriangleShell::TriangleShell(const MidSurface& mid)
            shear_at(kThird + d, kThird + d).row(1) + shear_at(kThird - 2.0 * d, kThird + d).row(1);
 }
 
-void TriangleShell::add_bubble(const Eigen::Vector3d& direction, double factor,
-                               ShellRow& row) const {
-  row.tail<2>() += factor * V_.cross(direction).transpose() * centre_.axes.leftCols<2>();
-}
-
 ShellRows<2> TriangleShell::shear_at(double r, double s) const {
   const SurfacePoint p(mid_, {r, s});
   ShellRows<2> out(2, columns());
   for (int i = 0; i < 2; ++i) {
     ShellRow row = shear(p, i);
-    add_bubble(i == 0 ? p.x_r : p.x_s, 27.0 * r * s * (1.0 - r - s), row);
+    add_bubble(i == 0 ? p.x_r : p.x_s, bubble(p.at), row);
     out.row(i) = row;
   }
   return out;
@@ -48,13 +38,7 @@ ShellRows<2> TriangleShell::shear_at(double r, double s) const {
 ShellStrain TriangleShell::strain(const SurfacePoint& p) const {
   const double r = p.at(0), s = p.at(1);
   ShellRows<3> bent = curvature(p);
-  const double q_r = 27.0 * s * (1.0 - 2.0 * r - s), q_s = 27.0 * r * (1.0 - r - 2.0 * s);
-  ShellRow rr = bent.row(0), ss = bent.row(1), rs = bent.row(2);
-  add_bubble(p.x_r, q_r, rr);
-  add_bubble(p.x_s, q_s, ss);
-  add_bubble(p.x_r, 0.5 * q_s, rs);
-  add_bubble(p.x_s, 0.5 * q_r, rs);
-  bent << rr, ss, rs;
+  add_bubble(p, bent);
   ShellRows<2> tied(2, columns());
   tied.row(0) = mean_r_ + (s - kThird) * twist_;
   tied.row(1) = mean_s_ + (kThird - r) * twist_;

@@ -71,6 +71,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace clatter::mesh {
 
@@ -132,6 +133,14 @@ struct CellTraits {
 
 const CellTraits& traits(CellType type);
 const FaceTraits& traits(FaceType type);
+
+/// Nodes of a face, or values there, to their order on the same face seen from its other side.
+template <class Nodes>
+void turn_over(FaceType type, Nodes&& nodes) {
+  const FaceTraits& face = traits(type);
+  std::swap(nodes[1], nodes[face.corners - 1]);
+  for (int i = face.corners, j = face.nodes - 1; i < j; ++i, --j) std::swap(nodes[i], nodes[j]);
+}
 
 /// The type with that name; InputError, prefixed with `where`, for an unknown name.
 CellType cell_type_named(std::string_view name, const std::string& where);

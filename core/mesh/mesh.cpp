@@ -56,7 +56,6 @@ void check_shells(const Mesh& mesh, const std::string& where) {
     if (solid[block.region])
       fail(fmt::format("region \"{}\", which has solids too", mesh.regions[block.region]),
            "regions of one kind");
-    if (traits(block.type).order != 1) fail(std::string(traits(block.type).name), "tri3 or quad4");
     const bool own = block.thickness.size() > 0;
     if (own && (block.thickness.rows() != block.nodes.rows() ||
                 block.thickness.cols() != block.nodes.cols() ||

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <tuple>
 
 namespace clatter::mesh {
@@ -29,7 +28,7 @@ std::vector<ShellEdge> edges_of(const std::vector<ShellBlock>& shells, int32_t& 
   std::vector<ShellEdge> edges;
   for (const ShellBlock& block : shells)
     for (Eigen::Index row = 0; row < block.nodes.rows(); ++row, ++cells)
-      for (Eigen::Index i = 0, n = block.nodes.cols(); i < n; ++i) {
+      for (Eigen::Index i = 0, n = traits(block.type).corners; i < n; ++i) {
         const int32_t a = block.nodes(row, i), b = block.nodes(row, (i + 1) % n);
         edges.push_back({std::min(a, b), std::max(a, b), cells, a < b});
       }
@@ -110,9 +109,8 @@ class Sides {
 };
 
 void turn(ShellBlock& block, Eigen::Index row) {
-  const Eigen::Index last = block.nodes.cols() - 1;
-  std::swap(block.nodes(row, 1), block.nodes(row, last));
-  if (block.thickness.size() > 0) std::swap(block.thickness(row, 1), block.thickness(row, last));
+  turn_over(block.type, block.nodes.row(row));
+  if (block.thickness.size() > 0) turn_over(block.type, block.thickness.row(row));
   if (block.offset.size() > 0) block.offset(row) = -block.offset(row);
 }
 
@@ -127,7 +125,6 @@ int64_t orient_shells(std::vector<ShellBlock>& shells, const std::vector<bool>& 
   int64_t count = 0;
   size_t cell = 0;
   for (ShellBlock& block : shells) {
-    assert(traits(block.type).order == 1);
     for (Eigen::Index row = 0; row < block.nodes.rows(); ++row, ++cell) {
       if (!turned[cell]) continue;
       turn(block, row);

@@ -8,10 +8,10 @@
 
 namespace clatter::mesh {
 
-/// Turns linear shells so that the two cells of each edge that just two have agree on the outward
+/// Turns shells so that the two cells of each edge that just two have agree on the outward
 /// side: of cells that hang together by such edges the fewer ones are turned, with their thickness
 /// and offset. Where no choice agrees (a Moebius strip) all of them keep their side.
-/// @param shells tri3 and quad4; offsets of regions are 0 or in ShellBlock::offset.
+/// @param shells offsets of regions are 0 or in ShellBlock::offset.
 /// @param keep by block, or empty: its cells are not turned, as those with layers; their neighbours
 /// are, unless some of these cells have other sides.
 /// @return how many cells were turned.

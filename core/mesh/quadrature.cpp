@@ -264,6 +264,11 @@ const FaceRule& quad_rule_4() {
   return rule;
 }
 
+const FaceRule& quad_rule_9() {
+  static const FaceRule rule = make_quad_rule(3);
+  return rule;
+}
+
 const FaceRule& quad_rule_16() {
   static const FaceRule rule = make_quad_rule(4);
   return rule;

@@ -47,9 +47,10 @@ const CellRule& pyramid_rule(int n);
 const CellRule& fine_rule(CellType type);
 
 /// Six points, exact for degree 4 (Dunavant, Int. J. Numer. Meth. Engng 21, 1985), and
-/// Gauss-Legendre, 2 x 2 points: of shells.
+/// Gauss-Legendre, 2 x 2 and 3 x 3 points: of shells.
 const FaceRule& triangle_rule_6();
 const FaceRule& quad_rule_4();
+const FaceRule& quad_rule_9();
 /// Sixteen points, exact for degree 7: used for all triangles (N_a n has degree 4 on a curved
 /// triangle, N_a dA is not polynomial there). Conical product of Gauss-Jacobi rules.
 const FaceRule& triangle_rule_16();

@@ -229,4 +229,18 @@ Eigen::Matrix<double, Eigen::Dynamic, 3> reference_nodes(CellType type) {
   return x;
 }
 
+Eigen::Matrix<double, Eigen::Dynamic, 2> reference_nodes(FaceType type) {
+  const FaceTraits& face = traits(type);
+  Eigen::Matrix<double, Eigen::Dynamic, 2> x(face.nodes, 2);
+  if (face.corners == 3)
+    x.topRows<3>() << 0.0, 0.0, 1.0, 0.0, 0.0, 1.0;
+  else
+    x.topRows<4>() << -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0;
+  for (int i = face.corners; i < face.nodes; ++i) {
+    const int from = i - face.corners;
+    x.row(i) = 0.5 * (x.row(from) + x.row((from + 1) % face.corners));
+  }
+  return x;
+}
+
 }  // namespace clatter::mesh

@@ -37,5 +37,7 @@ FaceShape face_shape(FaceType type, const Eigen::Vector2d& xi);
 
 /// Nodes of the reference cell, n x 3.
 Eigen::Matrix<double, Eigen::Dynamic, 3> reference_nodes(CellType type);
+/// The same of a face, n x 2.
+Eigen::Matrix<double, Eigen::Dynamic, 2> reference_nodes(FaceType type);
 
 }  // namespace clatter::mesh

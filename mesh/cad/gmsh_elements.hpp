@@ -11,7 +11,8 @@
 namespace clatter::mesh {
 
 /// Gmsh's element types.
-inline constexpr int kLine2 = 1, kTri3 = 2, kQuad4 = 3, kTet4 = 4, kTri6 = 9, kTet10 = 11;
+inline constexpr int kLine2 = 1, kTri3 = 2, kQuad4 = 3, kTet4 = 4, kLine3 = 8, kTri6 = 9,
+                     kTet10 = 11, kQuad8 = 16;
 
 /// Gmsh's node tags -> rows; only nodes of cells are kept, in ascending order of their tags.
 class NodeNumbers {

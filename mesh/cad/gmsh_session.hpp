@@ -66,11 +66,11 @@ struct RawMesh {
 /// A mesh of faces alone; tables hold rows of `nodes`.
 struct RawSheet {
   struct Cells {
-    IndexMatrix tri3, quad4;  // orientation as the face has it
+    IndexMatrix triangles, quads;  // tri3 and quad4, or tri6 and quad8; oriented as the face is
   };
   RowMatrix nodes;                   // n x 3, all of them of cells
   std::map<int, Cells> faces;        // by face tag
-  std::map<int, IndexMatrix> edges;  // by curve tag: lines of two nodes
+  std::map<int, IndexMatrix> edges;  // by curve tag: lines of two or three nodes
 };
 
 /// Elements of one kind in one entity of a Gmsh file.
@@ -169,8 +169,8 @@ class GmshSession {
   void join_faces();
   /// Removes all solids, and the other faces.
   void keep_faces(const std::vector<int>& faces);
-  /// Meshes all faces, with quadrilaterals as far as they go.
-  RawSheet generate_sheet(const SizeSettings& settings, bool triangles);
+  /// Meshes all faces with cells of this order, quadrilaterals as far as they go.
+  RawSheet generate_sheet(const SizeSettings& settings, bool triangles, int order);
 
   // --- mesh (gmsh_session.cpp) ---
   /// Meshes all solids with linear tetrahedra, from scratch at each call. NumericsError, with the

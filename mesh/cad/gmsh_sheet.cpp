@@ -93,7 +93,7 @@ void GmshSession::keep_faces(const std::vector<int>& faces) {
   });
 }
 
-RawSheet GmshSession::generate_sheet(const SizeSettings& settings, bool triangles) {
+RawSheet GmshSession::generate_sheet(const SizeSettings& settings, bool triangles, int order) {
   return gmsh_call("gmsh: meshing the sheet", [&] {
     synchronize();
     gmsh::model::mesh::clear();
@@ -102,19 +102,26 @@ RawSheet GmshSession::generate_sheet(const SizeSettings& settings, bool triangle
     gmsh::option::setNumber("Mesh.RecombinationAlgorithm", kBlossom);
     gmsh::model::mesh::generate(2);
     gmsh::option::setNumber("Mesh.RecombineAll", 0);
+    const bool is_quadratic = order == 2;
+    if (is_quadratic) {
+      gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 1);
+      gmsh::model::mesh::setOrder(2);
+    }
+    const int triangle = is_quadratic ? kTri6 : kTri3, quad = is_quadratic ? kQuad8 : kQuad4,
+              line = is_quadratic ? kLine3 : kLine2;
     RawSheet sheet;
     NodeNumbers numbers;
     const std::vector<int> faces = all_faces();
     for (const int face : faces)
-      for (const int type : {kTri3, kQuad4}) numbers.use(element_nodes(type, face));
+      for (const int type : {triangle, quad}) numbers.use(element_nodes(type, face));
     numbers.close();
     for (const int face : faces)
-      sheet.faces[face] = {table_of(element_nodes(kTri3, face), 3, numbers),
-                           table_of(element_nodes(kQuad4, face), 4, numbers)};
+      sheet.faces[face] = {table_of(element_nodes(triangle, face), 3 * order, numbers),
+                           table_of(element_nodes(quad, face), 4 * order, numbers)};
     gmsh::vectorpair curves;
     gmsh::model::getEntities(curves, 1);
     for (const int curve : tags_of(curves, 1))
-      sheet.edges[curve] = table_of(element_nodes(kLine2, curve), 2, numbers);
+      sheet.edges[curve] = table_of(element_nodes(line, curve), order + 1, numbers);
     sheet.nodes = coordinates_of(numbers);
     return sheet;
   });

@@ -9,8 +9,7 @@
 namespace clatter::mesh::deck {
 
 /// Block by block: those of the imported file; a missing number, or one that a solid or another
-/// shell has (a quadratic shell of a deck is four shells of its number), counts on from the largest
-/// of all. InputError where 32 bits do not suffice.
+/// shell has, counts on from the largest of all. InputError where 32 bits do not suffice.
 /// @param solids numbers of the solids as they are written, block by block.
 std::vector<std::vector<int32_t>> shell_numbers(const Mesh& mesh,
                                                 const std::vector<std::vector<int32_t>>& solids);

@@ -12,36 +12,6 @@ namespace {
 // digit of the normal is left.
 constexpr double kLeastArea = 1e-8, kLeastCorner = 1e-6;
 
-// Of the two nodes of a side.
-double mean(double a, double b) { return 0.5 * (a + b); }
-
-ShellFace part_of(const ShellFace& face, std::initializer_list<int32_t> nodes,
-                  std::initializer_list<double> values) {
-  ShellFace part;
-  part.type = nodes.size() == 3 ? FaceType::kTri3 : FaceType::kQuad4;
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    const int32_t at = nodes.begin()[i];
-    part.nodes[i] = at < 0 ? face.centre : face.nodes[static_cast<size_t>(at)];
-    part.values[i] = values.begin()[i];
-  }
-  return part;
-}
-
-std::vector<ShellFace> parts_of_tri6(const ShellFace& f) {
-  const auto [a, b, c, unused] = f.values;
-  const double ab = mean(a, b), bc = mean(b, c), ca = mean(c, a);
-  return {part_of(f, {0, 3, 5}, {a, ab, ca}), part_of(f, {3, 1, 4}, {ab, b, bc}),
-          part_of(f, {5, 4, 2}, {ca, bc, c}), part_of(f, {3, 4, 5}, {ab, bc, ca})};
-}
-
-std::vector<ShellFace> parts_of_quad8(const ShellFace& f) {
-  const auto [a, b, c, d] = f.values;
-  const double ab = mean(a, b), bc = mean(b, c), cd = mean(c, d), da = mean(d, a);
-  const double all = mean(ab, cd);
-  return {part_of(f, {0, 4, -1, 7}, {a, ab, all, da}), part_of(f, {4, 1, 5, -1}, {ab, b, bc, all}),
-          part_of(f, {-1, 5, 2, 6}, {all, bc, c, cd}), part_of(f, {7, -1, 6, 3}, {da, all, cd, d})};
-}
-
 }  // namespace
 
 void drop_repeated_corner(ShellFace& face) {
@@ -62,24 +32,6 @@ void drop_repeated_corner(ShellFace& face) {
     face = kept;
     return;
   }
-}
-
-bool has_centre(const ShellFace& face) {
-  ShellFace kept = face;
-  drop_repeated_corner(kept);
-  return kept.type == FaceType::kQuad8;
-}
-
-Eigen::Vector3d shell_centre(std::span<const Eigen::Vector3d, 8> nodes) {
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();
-  for (size_t i = 0; i < 8; ++i) at += (i < 4 ? -0.25 : 0.5) * nodes[i];
-  return at;
-}
-
-std::vector<ShellFace> linear_parts(const ShellFace& face) {
-  if (face.type == FaceType::kTri6) return parts_of_tri6(face);
-  if (face.type == FaceType::kQuad8) return parts_of_quad8(face);
-  return {face};
 }
 
 FlatShape shape_of(const ShellFace& face, const RowMatrix& nodes) {

@@ -8,13 +8,14 @@
 
 #include "core/base/error.hpp"
 #include "core/mesh/orient_shells.hpp"
-#include "mesh/deck/skins.hpp"
 
 namespace clatter::mesh::deck {
 namespace {
 
 // Of FlatShape: a flat shell is off the sheet by as much, and beyond the second one it is not one.
 constexpr double kNotedWarp = 0.1, kMostWarp = 0.5;
+// Thickness over the longest side: beyond them it is likely to be in other units.
+constexpr double kThin = 1e-4, kThick = 20.0;
 
 /// The cells of one region and type.
 struct ShellRows {
@@ -35,11 +36,9 @@ class ShellAdder {
   void add(size_t i, const ShellCell& cell) {
     ShellFace face = cell.face;
     drop_repeated_corner(face);
-    for (const ShellFace& part : linear_parts(face)) {
-      check(i, cell, part);
-      append(cell, part);
-    }
-    if (traits(face.type).order == 2) ++split_[cell.kind];
+    check(i, cell, face);
+    check_thickness(i, face);
+    append(cell, face);
     find_hinge(i, cell, face);
   }
 
@@ -55,42 +54,67 @@ class ShellAdder {
       note(0, fmt::format("{} shells are turned to the side of their neighbours; pressures and "
                           "offsets stay on the side that the deck has",
                           turned));
-    if (!split_.empty())
-      note(0, fmt::format("{}: each is four linear shells between its nodes", counted(split_)));
     if (warped_ > 0)
       note(worst_, fmt::format("{} shells are warped by more than {} of their size, this one by "
                                "{:.2g}: smaller ones or triangles follow a curved sheet better",
                                warped_, kNotedWarp, most_warp_));
+    const auto note_thickness = [&](const Odd& odd, const char* what, const char* guess) {
+      if (odd.count > 0)
+        note(odd.first, fmt::format("{} shells are {}, this one {:.3g} of its longest side: is the "
+                                    "thickness given in {} by mistake?",
+                                    odd.count, what, odd.ratio, guess));
+    };
+    note_thickness(thin_, "very thin", "m instead of mm");
+    note_thickness(thick_, "very thick", "mm instead of m");
     return std::move(hinges_);
   }
 
  private:
   int32_t label(NodeIndex node) const { return deck_.mesh.node_ids[static_cast<size_t>(node)]; }
 
-  void check(size_t i, const ShellCell& cell, const ShellFace& part) {
-    FlatShape shape = shape_of(part, deck_.mesh.nodes);
+  void check(size_t i, const ShellCell& cell, const ShellFace& face) {
+    FlatShape shape = shape_of(face, deck_.mesh.nodes);
     if (shape.warp > kMostWarp)
       shape.defect = fmt::format(
           "is warped by {:.2g} of its size, expected at most {}: two triangles follow such a sheet",
           shape.warp, kMostWarp);
     if (!shape.defect.empty()) {
-      const Eigen::Vector3d at = deck_.mesh.nodes.row(part.nodes[0]);
+      const Eigen::Vector3d at = deck_.mesh.nodes.row(face.nodes[0]);
       throw InputError(fmt::format("{}: {} {} at node {} ({:g}, {:g}, {:g}) {}", where_(i),
-                                   cell.kind, cell.id, label(part.nodes[0]), at.x(), at.y(), at.z(),
+                                   cell.kind, cell.id, label(face.nodes[0]), at.x(), at.y(), at.z(),
                                    shape.defect));
     }
-    if (shape.warp <= kNotedWarp) return;
+    if (shape.warp <= kNotedWarp || traits(face.type).order == 2) return;
     ++warped_;
     if (shape.warp <= most_warp_) return;
     most_warp_ = shape.warp;
     worst_ = i;
   }
 
-  void append(const ShellCell& cell, const ShellFace& part) {
-    ShellRows& rows = rows_[{cell.region, part.type}];
-    const auto count = static_cast<size_t>(traits(part.type).nodes);
-    rows.nodes.insert(rows.nodes.end(), part.nodes.begin(), part.nodes.begin() + count);
-    rows.thickness.insert(rows.thickness.end(), part.values.begin(), part.values.begin() + count);
+  void check_thickness(size_t i, const ShellFace& face) {
+    const auto corners = static_cast<size_t>(traits(face.type).corners);
+    double longest = 0.0;
+    for (size_t k = 0; k < corners; ++k)
+      longest = std::max(longest, (deck_.mesh.nodes.row(face.nodes[(k + 1) % corners]) -
+                                   deck_.mesh.nodes.row(face.nodes[k]))
+                                      .norm());
+    const double ratio =
+        *std::max_element(face.values.begin(), face.values.begin() + corners) / longest;
+    const auto take = [&](Odd& odd) {
+      if (odd.count++ == 0) odd = {1, i, ratio};
+    };
+    if (ratio > 0.0 && ratio < kThin) take(thin_);
+    if (ratio > kThick) take(thick_);
+  }
+
+  void append(const ShellCell& cell, const ShellFace& face) {
+    ShellRows& rows = rows_[{cell.region, face.type}];
+    const auto count = static_cast<size_t>(traits(face.type).nodes);
+    const auto corners = static_cast<size_t>(traits(face.type).corners);
+    rows.nodes.insert(rows.nodes.end(), face.nodes.begin(), face.nodes.begin() + count);
+    rows.thickness.insert(rows.thickness.end(), face.values.begin(), face.values.begin() + corners);
+    for (size_t k = 0; corners + k < count; ++k)
+      rows.thickness.push_back(0.5 * (face.values[k] + face.values[(k + 1) % corners]));
     rows.ids.push_back(cell.id);
     rows.offset.push_back(cell.offset);
     rows.axis.insert(rows.axis.end(), cell.axis.begin(), cell.axis.end());
@@ -152,11 +176,16 @@ class ShellAdder {
   const std::function<std::string(size_t)>& where_;
   std::vector<bool> on_solid_;
   std::map<std::pair<int32_t, FaceType>, ShellRows> rows_;
-  std::map<std::string, int64_t> split_;  // by kind
   std::vector<ShellHinge> hinges_;
   int64_t warped_ = 0;
   double most_warp_ = 0.0;
   size_t worst_ = 0;  // the cell of most_warp_
+  struct Odd {
+    int64_t count = 0;
+    size_t first = 0;
+    double ratio = 0.0;
+  };
+  Odd thin_, thick_;
 };
 
 }  // namespace

@@ -22,10 +22,10 @@ struct ShellCell {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // direction 1 of its material, or 0
 };
 
-/// Adds shells to Deck::mesh: quadratic ones as four linear ones each, those with a repeated corner
-/// as triangles, turned where neighbours have other sides (orient_shells.hpp) but not those of
-/// layers; with a thickness of their own where it is not that of the region in Deck::shells.
-/// Refuses those that cannot be shells; notes what it did.
+/// Adds shells to Deck::mesh: those with a repeated corner as triangles, turned where neighbours
+/// have other sides (orient_shells.hpp) but not those of layers; with a thickness of their own
+/// where it is not that of the region in Deck::shells. Refuses those that cannot be shells; notes
+/// what it did.
 /// @param where file and line of cell i.
 /// @return those on nodes of solids.
 std::vector<ShellHinge> add_shells(Deck& deck, const std::vector<ShellCell>& cells,

@@ -26,7 +26,7 @@ struct CadSolid {
   double slack = 0.0;         // change of the volume that joining near faces explains
 };
 
-enum class SheetCells { kQuadrilaterals, kTriangles };
+enum class SheetCells { kQuadrilaterals, kTriangles, kQuadratic };
 
 /// A point of a face with the normal that points out of the solid whose face it was.
 struct OutwardPoint {

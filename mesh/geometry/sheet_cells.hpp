@@ -10,9 +10,11 @@ template <class Rows>
 keys::Row cells_of_sheet(Rows& key, SheetCells& at) {
   return key.choice(
       "cells", at,
-      {{"quadrilaterals", SheetCells::kQuadrilaterals}, {"triangles", SheetCells::kTriangles}},
-      "quadrilaterals, with triangles where they must be; or triangles, which are "
-      "stiffer in their plane");
+      {{"quadrilaterals", SheetCells::kQuadrilaterals},
+       {"triangles", SheetCells::kTriangles},
+       {"quadratic", SheetCells::kQuadratic}},
+      "quadrilaterals, with triangles where they must be; or triangles, which are stiffer in their "
+      "plane; or quadratic quadrilaterals and triangles, as exact with twice the size or more");
 }
 
 }  // namespace clatter::mesh

@@ -42,14 +42,27 @@ std::array<Eigen::Vector3d, 4> corners_of(const RowMatrix& nodes, const int32_t*
   return x;
 }
 
-/// Along the shorter diagonal.
-void split(const std::array<Eigen::Vector3d, 4>& x, const int32_t* quad, int face,
+/// Along the shorter diagonal. @param centre of a quad8: the node in the middle, else -1.
+void split(const std::array<Eigen::Vector3d, 4>& x, const int32_t* quad, int32_t centre, int face,
            SheetRows& triangles) {
   const bool by_02 = (x[2] - x[0]).norm() <= (x[3] - x[1]).norm();
-  const std::array<int, 6> order =
-      by_02 ? std::array{0, 1, 2, 0, 2, 3} : std::array{0, 1, 3, 1, 2, 3};
-  for (const int i : order) triangles.nodes.push_back(quad[i]);
+  using Half = std::array<int, 6>;  // corners, then nodes of the sides; 8: the centre
+  const std::array<Half, 2> halves =
+      by_02 ? std::array<Half, 2>{{{0, 1, 2, 4, 5, 8}, {0, 2, 3, 8, 6, 7}}}
+            : std::array<Half, 2>{{{0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 6, 8}}};
+  for (const Half& half : halves)
+    for (size_t i = 0; i < (centre < 0 ? 3u : 6u); ++i)
+      triangles.nodes.push_back(half[i] == 8 ? centre : quad[half[i]]);
   triangles.faces.insert(triangles.faces.end(), 2, face);
+}
+
+/// A new node in the middle of a quad8, by its shape functions.
+int32_t add_centre(const int32_t* quad, RowMatrix& nodes) {
+  Eigen::RowVector3d at = Eigen::RowVector3d::Zero();
+  for (int i = 0; i < 8; ++i) at += (i < 4 ? -0.25 : 0.5) * nodes.row(quad[i]);
+  nodes.conservativeResize(nodes.rows() + 1, Eigen::NoChange);
+  nodes.bottomRows<1>() = at;
+  return static_cast<int32_t>(nodes.rows()) - 1;
 }
 
 ShellBlock block_of(FaceType type, const SheetRows& rows, const SheetFaces& sheet, double metres) {
@@ -69,28 +82,33 @@ struct SheetCellsOfFaces {
   std::vector<std::vector<int>> faces;
 };
 
-SheetCellsOfFaces cells_of(const RawSheet& raw, const SheetFaces& sheet, double metres) {
+/// Adds nodes to `raw` where quadratic cells are split.
+SheetCellsOfFaces cells_of(RawSheet& raw, const SheetFaces& sheet, double metres) {
   SheetRows quads, triangles;
   for (const auto& [face, cells] : raw.faces) {
-    triangles.nodes.insert(triangles.nodes.end(), cells.tri3.data(),
-                           cells.tri3.data() + cells.tri3.size());
-    triangles.faces.insert(triangles.faces.end(), static_cast<size_t>(cells.tri3.rows()), face);
-    for (Eigen::Index c = 0; c < cells.quad4.rows(); ++c) {
-      const int32_t* quad = cells.quad4.data() + 4 * c;
+    triangles.nodes.insert(triangles.nodes.end(), cells.triangles.data(),
+                           cells.triangles.data() + cells.triangles.size());
+    triangles.faces.insert(triangles.faces.end(), static_cast<size_t>(cells.triangles.rows()),
+                           face);
+    const Eigen::Index each = cells.quads.cols();
+    for (Eigen::Index c = 0; c < cells.quads.rows(); ++c) {
+      const int32_t* quad = cells.quads.data() + each * c;
       const auto x = corners_of(raw.nodes, quad);
       const ShellShape shape = shape_of_shell(x);
       if (shape.warp > kMostWarp || shape.jacobian < kLeastJacobian ||
           shape.corner < kLeastCorner || shape.upright < kUpright) {
-        split(x, quad, face, triangles);
+        split(x, quad, each == 8 ? add_centre(quad, raw.nodes) : -1, face, triangles);
         continue;
       }
-      quads.nodes.insert(quads.nodes.end(), quad, quad + 4);
+      quads.nodes.insert(quads.nodes.end(), quad, quad + each);
       quads.faces.push_back(face);
     }
   }
   SheetCellsOfFaces out;
+  const bool is_quadratic = sheet.cells == SheetCells::kQuadratic;
   for (auto& [type, rows] :
-       {std::pair(FaceType::kQuad4, &quads), std::pair(FaceType::kTri3, &triangles)}) {
+       {std::pair(is_quadratic ? FaceType::kQuad8 : FaceType::kQuad4, &quads),
+        std::pair(is_quadratic ? FaceType::kTri6 : FaceType::kTri3, &triangles)}) {
     if (rows->faces.empty()) continue;
     out.blocks.push_back(block_of(type, *rows, sheet, metres));
     out.faces.push_back(rows->faces);
@@ -114,7 +132,7 @@ void turn_outward(const SheetFaces& sheet, double metres,
       const auto at = [&](Eigen::Index i) -> Eigen::Vector3d {
         return mesh.nodes.row(nodes(c, i));
       };
-      const Eigen::Vector3d x = at(0), y = at(1), z = at(nodes.cols() - 1);
+      const Eigen::Vector3d x = at(0), y = at(1), z = at(traits(mesh.shells[b].type).corners - 1);
       cells[faces[b][static_cast<size_t>(c)]].push_back(
           {b, c, (x + y + z) / 3.0, (y - x).cross(z - x)});
     }
@@ -130,8 +148,8 @@ void turn_outward(const SheetFaces& sheet, double metres,
   for (const auto& [face, vote] : votes) {
     if (vote >= 0) continue;
     for (const CellAt& cell : cells.at(face)) {
-      IndexMatrix& nodes = mesh.shells[cell.block].nodes;
-      std::swap(nodes(cell.row, 1), nodes(cell.row, nodes.cols() - 1));
+      ShellBlock& block = mesh.shells[cell.block];
+      turn_over(block.type, block.nodes.row(cell.row));
     }
   }
 }
@@ -140,7 +158,12 @@ std::vector<int32_t> sorted(std::set<int32_t> nodes) { return {nodes.begin(), no
 
 std::vector<int32_t> nodes_of_free_edges(const Mesh& mesh) {
   std::set<int32_t> nodes;
-  for (const ShellSide& edge : free_edges(mesh.shells)) nodes.insert({edge.a, edge.b});
+  for (const ShellSide& edge : free_edges(mesh.shells)) {
+    nodes.insert({edge.a, edge.b});
+    const ShellBlock& block = mesh.shells[edge.block];
+    if (traits(block.type).order == 2)
+      nodes.insert(block.nodes(edge.cell, traits(block.type).corners + edge.from));
+  }
   return sorted(std::move(nodes));
 }
 
@@ -221,13 +244,14 @@ PartMesh mesh_sheet(GmshSession& session, const PartGeometry& part, const MeshSe
   const bool triangles = sheet.cells == SheetCells::kTriangles;
   const double predicted = require_few_shells(session, sizes, triangles, settings, metres, where);
   PartMesh result;
-  const RawSheet raw = session.generate_sheet(sizes, triangles);
+  RawSheet raw =
+      session.generate_sheet(sizes, triangles, sheet.cells == SheetCells::kQuadratic ? 2 : 1);
   enter_step("proving the mesh");
   Mesh& mesh = result.mesh;
   mesh.name = name;
-  mesh.nodes = metres * raw.nodes;
   mesh.regions = {sheet.region};
   SheetCellsOfFaces cells = cells_of(raw, sheet, metres);
+  mesh.nodes = metres * raw.nodes;
   mesh.shells = std::move(cells.blocks);
   turn_outward(sheet, metres, cells.faces, mesh);
   orient_shells(mesh.shells);

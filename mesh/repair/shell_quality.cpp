@@ -15,7 +15,7 @@ ShellQuality measure_shells(const Mesh& mesh) {
   out.jacobian.value = std::numeric_limits<double>::infinity();
   int32_t number = 0;
   for (const ShellBlock& block : mesh.shells) {
-    const auto n = static_cast<size_t>(block.nodes.cols());
+    const auto n = static_cast<size_t>(traits(block.type).corners);
     (n == 3 ? out.triangles : out.quadrilaterals) += block.nodes.rows();
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       ++number;

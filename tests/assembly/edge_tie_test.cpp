@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <map>
 
 #include "block_mesh.hpp"
 #include "core/base/log.hpp"
@@ -52,6 +53,30 @@ mesh::Mesh walls_on_block(const std::vector<Eigen::Vector2d>& plan, int along, i
   return mesh;
 }
 
+/// Its walls of quad8, whose lower mid-side nodes are of the foot.
+mesh::Mesh quadratic(mesh::Mesh mesh) {
+  mesh::ShellBlock& block = mesh.shells[0];
+  block.type = mesh::FaceType::kQuad8;
+  block.nodes.conservativeResize(Eigen::NoChange, 8);
+  std::map<std::pair<int32_t, int32_t>, int32_t> middles;
+  std::vector<Eigen::RowVector3d> at;
+  const auto first = static_cast<int32_t>(mesh.nodes.rows());
+  for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      const int32_t a = block.nodes(c, i), b = block.nodes(c, (i + 1) % 4);
+      const auto [known, added] =
+          middles.try_emplace(std::minmax(a, b), first + static_cast<int32_t>(at.size()));
+      block.nodes(c, 4 + i) = known->second;
+      if (!added) continue;
+      at.push_back(0.5 * (mesh.nodes.row(a) + mesh.nodes.row(b)));
+      if (i == 0 && at.back().z() < kTop + 1e-3) mesh.node_sets["foot"].push_back(known->second);
+    }
+  mesh.nodes.conservativeResize(first + std::ssize(at), Eigen::NoChange);
+  for (size_t k = 0; k < at.size(); ++k) mesh.nodes.row(first + static_cast<int32_t>(k)) = at[k];
+  mesh.surfaces["skin"] = mesh::skin_of(mesh::boundary_faces(mesh), mesh.shells);
+  return mesh;
+}
+
 std::string wall(double offset = 0.0, const std::string& more = "") {
   return fmt::format(
       "[[shell]]\nregions = [\"wall\"]\nthickness = 0.002\noffset = {}\n[[tie]]\nname = \"weld\"\n"
@@ -77,6 +102,29 @@ void expect_one_body(const BuiltModel& built) {
 TEST(EdgeTie, RigidMotionsCrossAWallAtAnAngle) {
   for (const double offset : {0.0, 0.0008})
     expect_one_body(build(walls_on_block({{0.011, 0.013}, {0.083, 0.041}}, 7, 4), wall(offset)));
+}
+
+TEST(EdgeTie, QuadraticWallsStandOnTheirMidSideNodesToo) {
+  const mesh::Mesh mesh = quadratic(walls_on_block({{0.011, 0.013}, {0.083, 0.041}}, 4, 2));
+  EXPECT_EQ(mesh.node_sets.at("foot").size(), 9u);
+  const BuiltModel built = build(mesh, wall());
+  expect_one_body(built);
+}
+
+TEST(EdgeTie, HeatFlowsThroughTheFoot) {
+  mesh::Mesh mesh = walls_on_block({{0.01, 0.03}, {0.09, 0.03}}, 8, 4);
+  mesh.node_sets["top"] = mesh::nodes_of(mesh.surface("z1"));
+  const std::string text = fmt::format(
+      "[material.steel]\nregions = [\"{}\", \"wall\"]\nE = 2e11\nnu = 0.3\nrho = 7850.0\n"
+      "conductivity = 50.0\nexpansion = 1e-5\n{}[[heat]]\nname = \"warm\"\n"
+      "[[heat.fixed]]\nnode_set = \"top\"\ntemperature_c = 100.0\n"
+      "[[heat.fixed]]\nnode_set = \"head\"\ntemperature_c = 20.0\n",
+      mesh.regions[0], wall());
+  const auto field = build_all(mesh, text).model.heat.at("warm");
+  const int32_t foot = mesh.node_sets.at("foot")[4];
+  EXPECT_NEAR(field.temperature(foot), 373.15, 1e-9);
+  EXPECT_NEAR(field.temperature(foot + 2 * 9), 333.15, 1e-9);
+  EXPECT_NEAR(std::abs(field.heat(1)), 50.0 * 0.002 * 0.08 * 80.0 / 0.04, 1e-9);
 }
 
 TEST(EdgeTie, ABoxTurnsWithTheFaceAtItsCorners) {

@@ -68,6 +68,22 @@ TEST(Sheet, PanHasItsAreaItsThicknessAndItsOutwardSide) {
   }
 }
 
+TEST(Sheet, QuadraticCellsLieOnTheCurvedSheet) {
+  const std::string pan =
+      "name = 'pan'\nkind = 'pan'\n[pan]\nthickness = 1.5\n{}[mesh]\nelement_size_mm = 20\n"
+      "elements_per_turn = 12\n";
+  const auto linear = mesh_toml(fmt::format(fmt::runtime(pan), "")).part;
+  const auto curved = mesh_toml(fmt::format(fmt::runtime(pan), "cells = 'quadratic'\n")).part;
+  for (const ShellBlock& block : curved.mesh.shells) EXPECT_EQ(traits(block.type).order, 2);
+  EXPECT_EQ(curved.certificate.cells, linear.certificate.cells);
+  EXPECT_LT(std::abs(*curved.certificate.shell_area_against_cad),
+            0.02 * std::abs(*linear.certificate.shell_area_against_cad));
+  // A mid-side node for each side of the edge: as many as corners.
+  EXPECT_EQ(curved.mesh.node_set("free_edges").size(),
+            2 * linear.mesh.node_set("free_edges").size());
+  EXPECT_EQ(curved.mesh.surface("skin").faces.back().type, FaceType::kQuad8);
+}
+
 TEST(Sheet, PanWithASumpIsOnePiece) {
   const auto part = mesh_toml(
                         "name = 'pan'\nkind = 'pan'\n[pan]\nlength = 400\nsump_depth = 150\n"

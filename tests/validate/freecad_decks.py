@@ -29,7 +29,7 @@ FOLDER = pathlib.Path("/usr/share/freecad/Mod/Fem/femtest/data/calculix")
 PRINTED = 1e-6  # a unit of the last of seven digits, of a number that begins with 1
 
 # What makes the difference where it is larger, by elements.
-SHELLS = "CalculiX makes solids of shells; clatter makes four linear shells of quadratic ones"
+SHELLS = "CalculiX makes solids of shells"
 BEAMS = "CalculiX makes solids of beams"
 CURVED = "curved cells: 14 points for K, CalculiX has 4"
 REMARKS = {

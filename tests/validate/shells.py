@@ -31,8 +31,12 @@ SOLIDS = {
 }
 CASES = [("free, 1.5 mm", "10 mm", 1, []), ("free, 1.5 mm", "5 mm", 2, []), ("free, 1.5 mm", "2.5 mm", 4, []),
          ("free, 1.5 mm", "`kind = \"pan\"`, 5 mm", 0, []),
+         ("free, 1.5 mm", "quad8, 10 mm", 1, ["--cells", "s8r"]),
+         ("free, 1.5 mm", "quad8, 5 mm", 2, ["--cells", "s8r"]),
          ("free, .8 mm", "5 mm", 2, ["--t", "0.8"]), ("free, .8 mm", "2.5 mm", 4, ["--t", "0.8"]),
-         ("tied to a frame", "5 mm", 2, ["--frame", "tied"]), ("tied to a frame", "2.5 mm", 4, ["--frame", "tied"])]
+         ("free, .8 mm", "quad8, 5 mm", 2, ["--t", "0.8", "--cells", "s8r"]),
+         ("tied to a frame", "5 mm", 2, ["--frame", "tied"]), ("tied to a frame", "2.5 mm", 4, ["--frame", "tied"]),
+         ("tied to a frame", "quad8, 5 mm", 2, ["--frame", "tied", "--cells", "s8r"])]
 
 
 def benchmarks():
@@ -52,9 +56,10 @@ def mesh_pan(folder):
 
 
 def read_pan(folder, level, options):
-    """The pan of S4 with sides of 10 mm / level: a.mesh.h5 and a.fe.toml."""
-    subprocess.run([sys.executable, PAN, "pan.inp", "--cells", "s4", "--level", str(level),
-                    *(["--t", "1.5"] if "--t" not in options else []), *options],
+    """The pan of S4, or as `options` say, with sides of 10 mm / level: a.mesh.h5 and a.fe.toml."""
+    subprocess.run([sys.executable, PAN, "pan.inp", "--level", str(level),
+                    *(["--t", "1.5"] if "--t" not in options else []),
+                    *(["--cells", "s4"] if "--cells" not in options else []), *options],
                    check=True, capture_output=True, cwd=folder)
     run("mesh", "pan.inp", "--units", "mm-t-s", "-o", "a.mesh.h5", "--recipe", "a.fe.toml", folder=folder)
 
@@ -114,7 +119,8 @@ def main():
         draw(SOURCE / "assembly/pan.png")
         return
     docs_table.finish("shell_benchmarks", docs_table.markdown(
-        ("case, mesh", "quad4", "quad4 distorted", "tri3", "tri3 distorted"), benchmarks()), sys.argv[1:])
+        ("case, mesh", *(f"{cell}{mesh}" for cell in ("quad4", "tri3", "quad8", "tri6") for mesh in ("", " distorted"))),
+        benchmarks()), sys.argv[1:])
     docs_table.finish("pan", docs_table.markdown(
         ("pan", "cells", *(str(mode) for mode in range(1, 13))), [pan_row(*case) for case in CASES]), sys.argv[1:])
 

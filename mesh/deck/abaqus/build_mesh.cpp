@@ -125,7 +125,7 @@ void build_mesh(Model& model) {
   build_regions(model);
   model.node_map.set_mesh_nodes(take_nodes(model.numbering, model.shells, model.deck.mesh));
   cut_bolts(model);
-  add_shell_nodes(model);
+  let_shells_turn(model);
   Blocks(model, model.deck.mesh).run();
   build_shells(model);
 }

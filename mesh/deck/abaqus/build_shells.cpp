@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
 #include "core/base/error.hpp"
@@ -128,36 +127,14 @@ void note_integration(Model& model) {
 
 void find_shells(Model& model) { ShellFinder(model).run(); }
 
-void add_shell_nodes(Model& model) {
-  Mesh& mesh = model.deck.mesh;
-  std::vector<Eigen::Vector3d> centres;
-  for (size_t t = 0; t < model.shells.section_of.size(); ++t) {
-    if (!is_shell(model, t) || !has_centre(face_of_shell(model, t))) continue;
-    std::array<Eigen::Vector3d, 8> at;
-    for (size_t i = 0; i < 8; ++i) at[i] = model.numbering.at(model.numbering.thin()[t].nodes[i]);
-    model.shells.centres[static_cast<int32_t>(t)] =
-        static_cast<NodeIndex>(mesh.nodes.rows() + std::ssize(centres));
-    centres.push_back(shell_centre(at));
-  }
-  int32_t highest = model.numbering.highest_node();
-  for (const int32_t id : mesh.node_ids) highest = std::max(highest, id);
-  if (std::numeric_limits<int32_t>::max() - highest < std::ssize(centres))
-    throw InputError("found no free numbers for nodes in shells");
-  const Eigen::Index first = mesh.nodes.rows();
-  mesh.nodes.conservativeResize(first + std::ssize(centres), Eigen::NoChange);
-  for (size_t i = 0; i < centres.size(); ++i) {
-    mesh.nodes.row(first + static_cast<Eigen::Index>(i)) = centres[i];
-    mesh.node_ids.push_back(++highest);
-  }
-  mesh.deck.largest_node = std::max(mesh.deck.largest_node, highest);
-  std::vector<bool> turns(static_cast<size_t>(mesh.nodes.rows()), false);
+void let_shells_turn(Model& model) {
+  std::vector<bool> turns(static_cast<size_t>(model.deck.mesh.nodes.rows()), false);
   for (size_t t = 0; t < model.shells.section_of.size(); ++t) {
     if (!is_shell(model, t)) continue;
     ShellFace face = face_of_shell(model, t);
     drop_repeated_corner(face);
     for (size_t i = 0; i < static_cast<size_t>(traits(face.type).nodes); ++i)
       turns[static_cast<size_t>(face.nodes[i])] = true;
-    if (face.centre >= 0) turns[static_cast<size_t>(face.centre)] = true;
   }
   model.node_map.set_turning(std::move(turns));
 }
@@ -179,11 +156,8 @@ void add_shell_faces(const Model& model, CellFaceId id, SurfaceBuilder& surface)
   const auto thin = static_cast<size_t>(id.first - model.numbering.first_thin());
   ShellFace face = face_of_shell(model, thin);
   drop_repeated_corner(face);
-  for (ShellFace& part : linear_parts(face)) {
-    const auto corners = static_cast<size_t>(traits(part.type).corners);
-    if (id.second == kSneg) std::swap(part.nodes[1], part.nodes[corners - 1]);
-    surface.add(part.type, part.nodes);
-  }
+  if (id.second == kSneg) turn_over(face.type, face.nodes);
+  surface.add(face.type, face.nodes);
 }
 
 }  // namespace clatter::mesh::deck::abaqus

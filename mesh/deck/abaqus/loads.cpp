@@ -322,12 +322,6 @@ void Loads::list_temperature(Step& out, StepNumber step) {
     const auto at = static_cast<size_t>(row);
     field(node, 0) = uniform ? temperature_[at] : temperature_[at] - initial[at];
   }
-  for (const auto& [thin, centre] : model_->shells.centres) {
-    field(centre, 0) = 0.0;
-    for (size_t i = 0; i < 4; ++i)
-      field(centre, 0) +=
-          0.25 * field(model_->node_map.mesh_node(model_->numbering.thin()[thin].nodes[i]), 0);
-  }
   out.temperature = fmt::format("temperature_{}", step);
   model_->deck.mesh.fields[out.temperature] = std::move(field);
 }

@@ -23,12 +23,11 @@ namespace clatter::mesh::deck::abaqus {
 
 /// The elements of two dimensions that are shells.
 struct ShellParts {
-  std::vector<int32_t> section_of;       // by thin element: one of *SHELL SECTION; -1: no shell
-  std::vector<int32_t> regions;          // of each section, index into Mesh::regions; -1: refused
-  std::map<int32_t, NodeIndex> centres;  // by thin element: the node that one of eight nodes gets
-  std::vector<ShellHinge> hinges;        // those on nodes of solids
-  bool are_marked = false;               // kShellMark
-  std::vector<const IdSet*> sets;        // instead of sections, where they are marked
+  std::vector<int32_t> section_of;  // by thin element: one of *SHELL SECTION; -1: no shell
+  std::vector<int32_t> regions;     // of each section, index into Mesh::regions; -1: refused
+  std::vector<ShellHinge> hinges;   // those on nodes of solids
+  bool are_marked = false;          // kShellMark
+  std::vector<const IdSet*> sets;   // instead of sections, where they are marked
 
   int32_t section(int32_t thin) const {
     return thin < 0 || thin >= std::ssize(section_of) ? -1 : section_of[static_cast<size_t>(thin)];
@@ -101,13 +100,13 @@ void build_systems(Model& model);
 void build_mesh(Model& model);
 /// Elements with a *SHELL SECTION, or marked ones, that have a corner on no solid -> Model::shells.
 void find_shells(Model& model);
-/// The nodes in the middle of shells of eight nodes, and which nodes have rotations.
-void add_shell_nodes(Model& model);
+/// Which nodes have rotations.
+void let_shells_turn(Model& model);
 /// Shells with their sections -> Mesh::shells, regions, Deck::shells.
 void build_shells(Model& model);
 /// Sides of a shell as CellFaceId: its own, and the other one.
 inline constexpr int32_t kSpos = 0, kSneg = 1;
-/// The linear faces of a side of a shell.
+/// The face of a side of a shell.
 void add_shell_faces(const Model& model, CellFaceId id, SurfaceBuilder& surface);
 /// *SOLID SECTION -> regions of the mesh and of the deck, Model::region_of_cell. A part of a region
 /// that rotates or has *NONSTRUCTURAL MASS becomes a region of its own.

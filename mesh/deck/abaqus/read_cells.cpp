@@ -331,12 +331,8 @@ std::vector<Listed> listed_elements() {
     rows.push_back(
         {name, Fate::kRead,
          *name == 'B' ? "beam; with a middle node two" : "truss; with a middle node two"});
-  for (const std::string_view name : shell_types()) {
-    const bool splits = traits(*thin_type(name)).order == 2;
-    rows.push_back({std::string(name), Fate::kRead,
-                    splits ? "four shells; on a face of a solid a surface"
-                           : "shell; on a face of a solid a surface"});
-  }
+  for (const std::string_view name : shell_types())
+    rows.push_back({std::string(name), Fate::kRead, "shell; on a face of a solid a surface"});
   for (const auto& [name, instead] : replaced_types())
     rows.push_back({std::string(name), Fate::kRefused, std::string(instead)});
   return rows;

@@ -85,8 +85,6 @@ ShellFace face_of_shell(const Model& model, size_t thin) {
   ShellFace face{.type = *element.face};
   for (size_t i = 0; i < static_cast<size_t>(element.count); ++i)
     face.nodes[i] = model.node_map.mesh_node(element.nodes[i]);
-  const auto centre = model.shells.centres.find(static_cast<int32_t>(thin));
-  if (centre != model.shells.centres.end()) face.centre = centre->second;
   return face;
 }
 

@@ -151,7 +151,8 @@ class AbaqusWriter {
   void write_shells(size_t b) {
     const ShellBlock& block = mesh_.shells[b];
     if (block.nodes.rows() == 0) return;
-    text_.put("*ELEMENT, TYPE={}, ELSET={}\n", traits(block.type).corners == 3 ? "S3" : "S4",
+    constexpr std::array<const char*, kFaceTypes> kTypes = {"S3", "S6", "S4", "S8R"};
+    text_.put("*ELEMENT, TYPE={}, ELSET={}\n", kTypes[static_cast<size_t>(block.type)],
               quoted(mesh_.regions[block.region]));
     const auto entries = static_cast<size_t>(block.nodes.cols()) + 1;
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
@@ -202,7 +203,7 @@ class AbaqusWriter {
     const ShellBlock& block = mesh_.shells[b];
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       std::array<int32_t, 4> nodes{};
-      const auto corners = static_cast<size_t>(block.nodes.cols());
+      const auto corners = static_cast<size_t>(traits(block.type).corners);
       for (size_t i = 0; i < corners; ++i) nodes[i] = block.nodes(c, static_cast<Eigen::Index>(i));
       const int32_t cell = shell_ids_[b][static_cast<size_t>(c)];
       faces_.push_back({turned(nodes, corners), cell, kSpos});

@@ -59,7 +59,6 @@ void let_shells_turn(Model& model) {
     drop_repeated_corner(face);
     for (int i = 0; i < traits(face.type).nodes; ++i)
       turns[static_cast<size_t>(face.nodes[static_cast<size_t>(i)])] = true;
-    if (face.centre >= 0) turns[static_cast<size_t>(face.centre)] = true;
   }
   model.node_map.set_turning(std::move(turns));
 }

@@ -15,6 +15,9 @@ namespace {
 // Poisson's ratios of stretching and bending that differ by no more are the same.
 constexpr double kSameRatio = 1e-6;
 
+// Bending of a membrane over that of a plate: it leaves no motion without stiffness.
+constexpr double kMembrane = 1e-6;
+
 // Of properties without materials, as our writer has them.
 bool is_mere_mesh(const Model& model) {
   return model.raw.materials.empty() && model.raw.other_materials.empty();
@@ -38,6 +41,11 @@ class ShellProperties {
           "{}: MID3 of {} PSHELL is blank, rigid in shear across the sheet in Nastran: here 5/6 of "
           "the shear stiffness of MID2",
           model_.source.where(first_without_shear_), without_shear_));
+    if (membranes_ > 0)
+      model_.deck.notes.push_back(fmt::format(
+          "{}: MID2 of {} PSHELL is blank, a membrane without bending: here {:g} of that of a "
+          "plate, so that grids off solids and other sheets are held across it",
+          model_.source.where(first_membrane_), membranes_, kMembrane));
   }
 
  private:
@@ -150,6 +158,11 @@ class ShellProperties {
   /// Of isotropic materials with the same Poisson's ratio the first one is enough.
   void take_materials(int32_t property, const RawShell& raw, recipe::Shell& shell) {
     use(property, raw, raw.material);
+    if (raw.bending == 0) {
+      if (membranes_++ == 0) first_membrane_ = raw.origin;
+      shell.section.bending = kMembrane;
+      return;
+    }
     const std::string bending = use(property, raw, raw.bending);
     const int32_t across = raw.shear == 0 ? raw.bending : raw.shear;
     const std::string shear = use(property, raw, across);
@@ -175,6 +188,8 @@ class ShellProperties {
   std::set<int32_t> with_losses_;       // laminates that are noted
   int64_t without_shear_ = 0;
   Origin first_without_shear_ = 0;
+  int64_t membranes_ = 0;
+  Origin first_membrane_ = 0;
 };
 
 class ShellReader {
@@ -273,7 +288,6 @@ ShellFace face_of_shell(const Model& model, const RawSkin& raw) {
   ShellFace face{.type = raw.type};
   for (size_t i = 0; i < static_cast<size_t>(traits(raw.type).nodes); ++i)
     face.nodes[i] = model.find(raw.grids[i], raw.origin);
-  if (raw.centre != kNoRow) face.centre = model.node_map.find(static_cast<size_t>(raw.centre));
   return face;
 }
 

@@ -15,7 +15,6 @@ constexpr const char* kBeam = "bar, beam or truss between two grids";
 constexpr const char* kBeamSection = "section and material of bars";
 constexpr const char* kCell = "cells, with any mid-side nodes or none";
 constexpr const char* kSkin = "shell; where it is a face of a solid, a surface";
-constexpr const char* kQuadraticSkin = "four shells; where it is a face of a solid, a surface";
 constexpr const char* kLayers =
     "section of shells with its layers; of faces of solids left out with a line";
 
@@ -120,7 +119,7 @@ constexpr std::array kRoles = {
     reads("CELAS2", read_celas2, 8, "spring"),
     reads("CELAS3", read_celas3, 8, "spring"),
     reads("CELAS4", read_celas4, 8, "spring"),
-    refuses("CFAST", kWelds, 0, 0),
+    reads("CFAST", read_cfast, 16, "springs between patches of two sheets"),
     reads("CGAP", read_cgap, 8, "springs of the state in which the gap begins"),
     reads("CHEXA", read_cell, 24, kCell),
     reads("CMASS1", read_celas1, 8, "mass between DoFs"),
@@ -141,7 +140,7 @@ constexpr std::array kRoles = {
     reads("CPYRA", read_cell, 16, kCell),
     reads("CPYRAM", read_cell, 16, kCell),
     reads("CQUAD4", read_skin, 16, kSkin),
-    reads("CQUAD8", read_skin, 24, kQuadraticSkin),
+    reads("CQUAD8", read_skin, 24, kSkin),
     reads("CQUADR", read_skin, 16, kSkin),
     Role{"CROD", Fate::kRead, read_crod, 8, 2, 2, kBeam},
     refuses("CSEAM", kWelds, 0, 0),
@@ -151,11 +150,11 @@ constexpr std::array kRoles = {
     refuses("CSUPER", kOthers, 0, 0),
     reads("CTETRA", read_cell, 16, kCell),
     reads("CTRIA3", read_skin, 16, kSkin),
-    reads("CTRIA6", read_skin, 16, kQuadraticSkin),
+    reads("CTRIA6", read_skin, 16, kSkin),
     reads("CTRIAR", read_skin, 16, kSkin),
     Role{"CTUBE", Fate::kRead, read_crod, 8, 2, 2, kBeam},
     passes("CVISC", kDampers),
-    refuses("CWELD", kWelds, 0, 0),
+    reads("CWELD", read_cweld, 24, "springs between patches of two sheets"),
     passes("DAREA", kDynamic),
     passes("DCONADD", kOptimisation),
     passes("DCONSTR", kOptimisation),
@@ -260,7 +259,7 @@ constexpr std::array kRoles = {
     passes("PDAMPT", kDampers),
     reads("PELAS", read_pelas, 8, "stiffness and loss factor of springs"),
     passes("PELAST", kDynamic),
-    passes("PFAST", kUnused),
+    reads("PFAST", read_pfast, 16, "diameter, stiffness and mass of CFAST"),
     reads("PGAP", read_pgap, 0, "stiffness of gaps"),
     reads("PLOAD", read_pload, 8, "pressure on a face of solids or shells"),
     refuses("PLOAD1", kBarLoads, 0, 0),
@@ -279,7 +278,7 @@ constexpr std::array kRoles = {
     reads("PSOLID", read_psolid, 8, "region with its material"),
     reads("PTUBE", read_ptube, 8, kBeamSection),
     passes("PVISC", kDampers),
-    passes("PWELD", kUnused),
+    reads("PWELD", read_pweld, 16, "diameter and material of CWELD"),
     passes("QSET", kSuper),
     passes("QSET1", kSuper),
     passes("RANDPS", kDynamic),

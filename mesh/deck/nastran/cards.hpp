@@ -41,6 +41,7 @@ void read_celas2(const Card& card, RawDeck& raw);  // CELAS2, CMASS2
 void read_celas3(const Card& card, RawDeck& raw);  // CELAS3, CMASS3
 void read_celas4(const Card& card, RawDeck& raw);  // CELAS4, CMASS4
 void read_cell(const Card& card, RawDeck& raw);    // CTETRA, CPYRAM, CPENTA, CHEXA
+void read_cfast(const Card& card, RawDeck& raw);
 void read_cgap(const Card& card, RawDeck& raw);
 void read_conm1(const Card& card, RawDeck& raw);
 void read_conm2(const Card& card, RawDeck& raw);
@@ -48,6 +49,7 @@ void read_cord1(const Card& card, RawDeck& raw);  // CORD1R, CORD1C, CORD1S
 void read_cord2(const Card& card, RawDeck& raw);  // CORD2R, CORD2C, CORD2S
 void read_conrod(const Card& card, RawDeck& raw);
 void read_crod(const Card& card, RawDeck& raw);  // CROD, CTUBE
+void read_cweld(const Card& card, RawDeck& raw);
 void read_dmig(const Card& card, RawDeck& raw);
 void read_eigr(const Card& card, RawDeck& raw);
 void read_eigrl(const Card& card, RawDeck& raw);
@@ -73,6 +75,7 @@ void read_pbeam(const Card& card, RawDeck& raw);
 void read_pbeaml(const Card& card, RawDeck& raw);
 void read_pbush(const Card& card, RawDeck& raw);
 void read_pelas(const Card& card, RawDeck& raw);
+void read_pfast(const Card& card, RawDeck& raw);
 void read_pgap(const Card& card, RawDeck& raw);
 void read_pload(const Card& card, RawDeck& raw);
 void read_pload2(const Card& card, RawDeck& raw);
@@ -82,6 +85,7 @@ void read_prod(const Card& card, RawDeck& raw);
 void read_pshell(const Card& card, RawDeck& raw);  // PSHELL, PCOMP, PCOMPG
 void read_psolid(const Card& card, RawDeck& raw);
 void read_ptube(const Card& card, RawDeck& raw);
+void read_pweld(const Card& card, RawDeck& raw);
 void read_rbar(const Card& card, RawDeck& raw);
 void read_rbar1(const Card& card, RawDeck& raw);  // RBAR1, RJOINT
 void read_rbe1(const Card& card, RawDeck& raw);

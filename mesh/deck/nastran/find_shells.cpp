@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "mesh/deck/nastran/model.hpp"
 #include "mesh/deck/open_faces.hpp"
@@ -47,16 +46,12 @@ class ShellFinder {
       fail(skin,
            fmt::format("found {} of its mid-side grids blank, expected all or none", skin.missing));
     ShellFace face{.type = skin.type};
-    std::array<Eigen::Vector3d, kMaxFaceNodes> at{};
-    for (size_t i = 0; i < static_cast<size_t>(traits(skin.type).nodes); ++i) {
-      face.nodes[i] = skin.grids[i];
-      at[i] = vector(model_.raw.grids.at[row_of(skin, skin.grids[i])]);
-    }
-    ShellFace kept = face;
-    drop_repeated_corner(kept);
-    for (size_t i = 0; i < static_cast<size_t>(traits(kept.type).nodes); ++i)
-      mesh_node_[row_of(skin, kept.nodes[i])] = 0;
-    if (has_centre(face)) skin.centre = add_row(shell_centre(at), skin.origin);
+    const auto nodes = static_cast<size_t>(traits(skin.type).nodes);
+    std::copy_n(skin.grids.begin(), nodes, face.nodes.begin());
+    for (size_t i = 0; i < nodes; ++i) (void)row_of(skin, skin.grids[i]);
+    drop_repeated_corner(face);
+    for (size_t i = 0; i < static_cast<size_t>(traits(face.type).nodes); ++i)
+      mesh_node_[row_of(skin, face.nodes[i])] = 0;
   }
 
  private:
@@ -84,18 +79,6 @@ class ShellFinder {
     return static_cast<size_t>(row);
   }
 
-  int32_t add_row(const Eigen::Vector3d& at, Origin origin) {
-    Grids& grids = model_.raw.grids;
-    if (next_ == 0) next_ = *std::max_element(grids.ids.begin(), grids.ids.end());
-    if (next_ == std::numeric_limits<int32_t>::max())
-      model_.source.fail(origin, "found no free number above the largest GRID");
-    grids.ids.push_back(++next_);
-    grids.at.push_back({at.x(), at.y(), at.z()});
-    grids.origins.push_back(origin);
-    mesh_node_.push_back(0);
-    return static_cast<int32_t>(grids.size()) - 1;
-  }
-
   [[noreturn]] void fail(const RawSkin& skin, const std::string& message) const {
     model_.source.fail(skin.origin, fmt::format("{} {}: {}", skin.kind, skin.id, message));
   }
@@ -104,7 +87,6 @@ class ShellFinder {
   std::vector<int32_t>& mesh_node_;
   std::vector<int32_t> solids_;
   OpenFaces open_;
-  int32_t next_ = 0;  // last number given to a centre
 };
 
 }  // namespace

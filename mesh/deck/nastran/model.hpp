@@ -73,8 +73,7 @@ void leave_out_fluids(Model& model, Ignore& ignore);
 /// Cells, nodes, regions. Grids without cells get no node index yet.
 void build_mesh(Model& model, const Ignore& ignore);
 /// Moves those two-dimensional cells that are shells, which have a corner on no solid, to
-/// raw.shell_cells and marks their rows in `mesh_node`; adds a row for the centre of those of eight
-/// grids.
+/// raw.shell_cells and marks their rows in `mesh_node`.
 void find_shells(Model& model, const Ignore& ignore, std::vector<int32_t>& mesh_node);
 /// raw.shell_cells with their PSHELL -> Mesh::shells, regions, Deck::shells.
 void build_shells(Model& model);
@@ -105,6 +104,8 @@ void build_equations(Model& model);
 void build_springs(Model& model);
 /// CBUSH with their PBUSH, CGAP with their PGAP -> springs.
 void build_bushes(Model& model);
+/// CFAST with their PFAST, CWELD with their PWELD -> springs, masses.
+void build_fasteners(Model& model);
 /// CBAR, CBEAM, CROD, CONROD, CTUBE with their properties -> beams.
 void build_bars(Model& model);
 /// CONM1 and the DMIG of K2GG and M2GG.

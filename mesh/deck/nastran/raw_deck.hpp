@@ -13,6 +13,7 @@
 #include "mesh/deck/nastran/card.hpp"
 #include "mesh/deck/nastran/control.hpp"
 #include "mesh/deck/nastran/raw_bars.hpp"
+#include "mesh/deck/nastran/raw_fasteners.hpp"
 #include "mesh/deck/nastran/raw_skins.hpp"
 
 namespace clatter::mesh::deck::nastran {
@@ -350,6 +351,8 @@ struct RawDeck {
   std::map<int32_t, RawBarProperty> bar_properties;
   std::vector<RawBush> bushes;
   std::map<int32_t, RawBushProperty> bush_properties;
+  std::vector<RawFastener> fasteners;
+  std::map<int32_t, RawFastenerProperty> fastener_properties;
   std::map<int32_t, RawGapProperty> gap_properties;
   std::map<std::string, RawDirect> direct;                           // DMIG by name
   std::set<int32_t> scalar_points;                                   // SPOINT

@@ -27,7 +27,6 @@ struct RawSkin {
   int32_t system = kNoSystem;         // MCID
   bool is_relative = false;           // TFLAG: thickness over that of the property
   std::array<double, 4> thickness{};  // at the corners; NaN: that of the property
-  int32_t centre = -1;                // row of the node that a shell of eight grids gets
 };
 
 struct RawPly {

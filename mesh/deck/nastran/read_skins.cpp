@@ -57,10 +57,6 @@ void take_sheet(const Card& card, RawShell& shell) {
     shell.refusal = "MID1 is blank: a plate that nothing holds in its plane, expected a material";
   else if (shell.bending == -1)
     shell.refusal = "MID2 is -1: plane strain is not read, expected MID2 = MID1 of a sheet";
-  else if (shell.bending == 0)
-    shell.refusal =
-        "MID2 is blank: a membrane, whose grids nothing holds across it, expected "
-        "MID2 = MID1 of a sheet";
 }
 
 // Blank materials and thicknesses are those of the ply before.

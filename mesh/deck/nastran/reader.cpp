@@ -31,6 +31,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   build_equations(model);
   build_springs(model);
   build_bushes(model);
+  build_fasteners(model);
   build_bars(model);
   build_matrices(model);
   refusals.attempt([&] { build_supports(model); });

@@ -22,12 +22,8 @@ void add_shell(Model& model, const RawSkin& shell, const RawPressure& pressure,
   ShellFace face = face_of_shell(model, shell);
   face.values = pressure.values;
   drop_repeated_corner(face);
-  for (const ShellFace& part : linear_parts(face)) {
-    loads.push_back({pressure, {part.type, part.nodes, 0}});
-    SkinLoad& load = loads.back();
-    load.pressure.values = part.values;
-    if (part.type == FaceType::kTri3) load.pressure.values[3] = part.values[0];
-  }
+  loads.push_back({pressure, {face.type, face.nodes, 0}});
+  loads.back().pressure.values = face.values;
 }
 
 }  // namespace

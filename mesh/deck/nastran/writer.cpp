@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <ostream>
 
 #include "core/base/error.hpp"
@@ -19,6 +20,14 @@ namespace {
 constexpr int kLargeField = 16, kSmallField = 8;
 constexpr int32_t kNoField = -1;  // left blank
 constexpr int32_t kMostInSmallField = 99999999;
+
+/// The card of a shell, and its field ZOFFS from EID on.
+struct ShellCard {
+  const char* name;
+  size_t offset;
+};
+constexpr std::array<ShellCard, kFaceTypes> kShellCards = {
+    {{"CTRIA3", 6}, {"CTRIA6", 9}, {"CQUAD4", 7}, {"CQUAD8", 15}}};
 
 // Numbers of the nodes and cells as they are written.
 class Numbers {
@@ -128,32 +137,32 @@ class NastranWriter {
 
   void shells(size_t b) {
     const ShellBlock& block = mesh_.shells[b];
-    const char* name = traits(block.type).corners == 3 ? "CTRIA3" : "CQUAD4";
+    const ShellCard& shell = kShellCards[static_cast<size_t>(block.type)];
     std::vector<int32_t> fields;
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       fields = {numbers_.shells()[b][static_cast<size_t>(c)], block.region + 1};
       for (const int32_t node : block.nodes.row(c)) fields.push_back(numbers_.node(node));
       if (block.thickness.size() > 0 || block.offset.size() > 0)
-        own_section(name, fields, block, c);
+        own_section(shell, fields, block, c);
       else
-        card(name, fields, width_);
+        card(shell.name, fields, width_);
     }
   }
 
-  // The corners are followed by THETA and ZOFFS; T1 to T4 are fields 11 to 14 after the name.
-  void own_section(const char* name, const std::vector<int32_t>& integers, const ShellBlock& block,
-                   Eigen::Index c) {
-    constexpr size_t kFirstThickness = 10;
+  void own_section(const ShellCard& shell, const std::vector<int32_t>& integers,
+                   const ShellBlock& block, Eigen::Index c) {
+    constexpr size_t kThickness = 10;  // T1 to T4
+    const auto corners = static_cast<size_t>(traits(block.type).corners);
     std::vector<std::string> fields;
     for (const int32_t field : integers) fields.push_back(std::to_string(field));
-    fields.emplace_back();
-    fields.push_back(block.offset.size() > 0 ? nastran_number(block.offset[c], kLargeField) : "");
-    if (block.thickness.size() > 0) {
-      fields.resize(kFirstThickness);
-      for (const double t : block.thickness.row(c))
-        fields.push_back(nastran_number(t, kLargeField));
-    }
-    card(name, fields, kLargeField);
+    fields.resize(std::max(shell.offset + 1, kThickness + corners));
+    if (block.offset.size() > 0)
+      fields[shell.offset] = nastran_number(block.offset[c], kLargeField);
+    for (size_t i = 0; i < corners && block.thickness.size() > 0; ++i)
+      fields[kThickness + i] =
+          nastran_number(block.thickness(c, static_cast<Eigen::Index>(i)), kLargeField);
+    while (fields.back().empty()) fields.pop_back();
+    card(shell.name, fields, kLargeField);
   }
 
   /// Hanging mid-side nodes are omitted from their cells: the reader adds them again.

@@ -13,19 +13,24 @@ namespace {
 
 const Plate kPlate{.E = 3.0, .nu = 0.3, .rho = 2.0, .thickness = 0.1};
 
-/// A plane cell, oblique in space.
+/// A plane cell, oblique in space, with straight sides.
 ShellNodes plane_cell(int n) {
+  const int corners = n > 4 ? n / 2 : n;
   ShellNodes x(4, 3);
   x << 0.1, 0.0, 0.0, 1.3, 0.2, 0.0, 1.0, 0.9, 0.0, -0.1, 1.1, 0.0;
+  x.conservativeResize(n, Eigen::NoChange);
+  for (int i = corners; i < n; ++i)
+    x.row(i) = 0.5 * (x.row(i - corners) + x.row((i - corners + 1) % corners));
   const Eigen::Matrix3d Q =
       Eigen::AngleAxisd(0.9, Eigen::Vector3d(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
   const ShellNodes turned = (x * Q.transpose()).rowwise() + Eigen::RowVector3d(0.4, -0.3, 0.2);
-  return turned.topRows(n);
+  return turned;
 }
 
-/// Warped by a fifth of its size where it has four nodes, tapered, with offset, directors inclined.
+/// Warped by a fifth of its size where it has four nodes or more, tapered, with offset, directors
+/// inclined.
 ShellCell odd_cell(int n, unsigned seed) {
-  const ShellNodes x = plane_cell(n) + 0.1 * test::random_matrix(n, 3, seed);
+  const ShellNodes x = plane_cell(n) + (n > 4 ? 0.04 : 0.1) * test::random_matrix(n, 3, seed);
   ShellCell cell = cell_alone(x, kPlate);
   cell.directors += 0.1 * test::random_matrix(n, 3, seed + 100);
   cell.directors.rowwise().normalize();
@@ -42,7 +47,7 @@ ShellMatrices matrices_of(const ShellCell& cell, MassForm form = MassForm::kCons
 }
 
 class ShellOfNodes : public ::testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Cells, ShellOfNodes, ::testing::Values(3, 4));
+INSTANTIATE_TEST_SUITE_P(Cells, ShellOfNodes, ::testing::Values(3, 4, 6, 8));
 
 TEST_P(ShellOfNodes, RigidMotionsHaveNoForce) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -99,7 +104,8 @@ struct Moments {
 /// Of a slab: int rho (u . u) over its volume for six rigid motions.
 Eigen::MatrixXd slab(const ShellNodes& x, const Plate& plate) {
   Moments m;
-  for (Eigen::Index i = 2; i < x.rows(); ++i) m.add(x.row(0), x.row(i - 1), x.row(i));
+  for (Eigen::Index i = 2; i < (x.rows() > 4 ? x.rows() / 2 : x.rows()); ++i)
+    m.add(x.row(0), x.row(i - 1), x.row(i));
   const Eigen::Vector3d a = x.row(1) - x.row(0), b = x.row(2) - x.row(0),
                         n = a.cross(b).normalized();
   const double t = plate.thickness;
@@ -167,7 +173,8 @@ TEST_P(ShellOfNodes, MatricesAreSymmetric) {
 TEST(Shell, FrequenciesDoNotDependOnWhereTheNodesOfAPlateLie) {
   Plate plate{.E = 210e9, .nu = 0.3, .rho = 7850.0, .thickness = 1.5e-3};
   const auto map = [](double u, double v) { return Eigen::Vector3d(0.3 * u, 0.2 * v, 0.0); };
-  for (const Cells cells : {Cells::kQuads, Cells::kTriangles, Cells::kMixed})
+  for (const Cells cells :
+       {Cells::kQuads, Cells::kTriangles, Cells::kMixed, Cells::kQuads8, Cells::kTriangles6})
     for (const MassForm form : {MassForm::kConsistent, MassForm::kHrz}) {
       plate.mass = form;
       plate.offset = 0.0;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 
 #include "core/fe/shell_directors.hpp"
 
@@ -42,7 +43,8 @@ std::vector<mesh::ShellBlock> blocks_of(const IndexMatrix& quads, Cells cells) {
   Eigen::Index n_quads = 0, n_triangles = 0;
   for (Eigen::Index c = 0; c < quads.rows(); ++c) {
     const auto q = quads.row(c);
-    if (cells == Cells::kQuads || (cells == Cells::kMixed && c % 2 == 0)) {
+    const bool is_quad = cells == Cells::kQuads || cells == Cells::kQuads8;
+    if (is_quad || (cells == Cells::kMixed && c % 2 == 0)) {
       quad.nodes.row(n_quads++) = q;
     } else {
       tri.nodes.row(n_triangles++) << q(0), q(1), q(2);
@@ -57,6 +59,36 @@ std::vector<mesh::ShellBlock> blocks_of(const IndexMatrix& quads, Cells cells) {
   return out;
 }
 
+void add_middles(Sheet& sheet, const Map* map) {
+  std::map<std::pair<int, int>, int> middles;
+  std::vector<Eigen::RowVector3d> at;
+  std::vector<Eigen::RowVector2d> uv;
+  const int first = static_cast<int>(sheet.nodes.rows());
+  for (mesh::ShellBlock& block : sheet.shells) {
+    const int corners = mesh::traits(block.type).corners;
+    block.type = corners == 3 ? mesh::FaceType::kTri6 : mesh::FaceType::kQuad8;
+    block.nodes.conservativeResize(Eigen::NoChange, 2 * corners);
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
+      for (int i = 0; i < corners; ++i) {
+        const int a = block.nodes(c, i), b = block.nodes(c, (i + 1) % corners);
+        const auto [known, added] =
+            middles.try_emplace(std::minmax(a, b), first + static_cast<int>(at.size()));
+        block.nodes(c, corners + i) = known->second;
+        if (!added) continue;
+        if (sheet.uv.rows() > 0) uv.push_back(0.5 * (sheet.uv.row(a) + sheet.uv.row(b)));
+        if (map != nullptr)
+          at.push_back((*map)(uv.back()(0), uv.back()(1)).transpose());
+        else
+          at.push_back(0.5 * (sheet.nodes.row(a) + sheet.nodes.row(b)));
+      }
+  }
+  sheet.nodes.conservativeResize(first + std::ssize(at), Eigen::NoChange);
+  for (size_t i = 0; i < at.size(); ++i) sheet.nodes.row(first + static_cast<int>(i)) = at[i];
+  if (sheet.uv.rows() == 0) return;
+  sheet.uv.conservativeResize(first + std::ssize(uv), Eigen::NoChange);
+  for (size_t i = 0; i < uv.size(); ++i) sheet.uv.row(first + static_cast<int>(i)) = uv[i];
+}
+
 Sheet mapped(const Map& map, int nu, int nv, Cells cells, bool distorted) {
   const int n = (nu + 1) * (nv + 1);
   const IndexMatrix quads = grid(nu, nv);
@@ -68,6 +100,7 @@ Sheet mapped(const Map& map, int nu, int nv, Cells cells, bool distorted) {
       sheet.uv.row(j * (nu + 1) + i) = uv.transpose();
       sheet.nodes.row(j * (nu + 1) + i) = map(uv(0), uv(1)).transpose();
     }
+  if (cells == Cells::kQuads8 || cells == Cells::kTriangles6) add_middles(sheet, &map);
   return sheet;
 }
 
@@ -102,7 +135,9 @@ ShellCell cell_alone(const ShellNodes& x, const Plate& plate) {
   sheet.nodes = x;
   const int n = static_cast<int>(x.rows());
   sheet.shells.resize(1);
-  sheet.shells[0].type = n == 3 ? mesh::FaceType::kTri3 : mesh::FaceType::kQuad4;
+  for (const mesh::FaceType type : {mesh::FaceType::kTri3, mesh::FaceType::kTri6,
+                                    mesh::FaceType::kQuad4, mesh::FaceType::kQuad8})
+    if (mesh::traits(type).nodes == n) sheet.shells[0].type = type;
   sheet.shells[0].nodes.resize(1, n);
   for (int i = 0; i < n; ++i) sheet.shells[0].nodes(0, i) = i;
   return cell_of(sheet, shell_directors(sheet.nodes, sheet.shells), plate, 0, 0);

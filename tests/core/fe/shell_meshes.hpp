@@ -14,7 +14,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 using Map = std::function<Eigen::Vector3d(double u, double v)>;
 
 /// Cells of a grid; triangles: each quadrilateral cut from its first to its third node.
-enum class Cells { kQuads, kTriangles, kMixed };
+enum class Cells { kQuads, kTriangles, kMixed, kQuads8, kTriangles6 };
 
 struct Sheet {
   RowMatrix nodes;
@@ -26,8 +26,10 @@ struct Sheet {
 /// The unit square in nu x nv cells, mapped. Distorted: sides divided as 1 : 2 : ..., opposite ones
 /// reversed, joined by straight lines (Bucalem and Bathe, as in tests of MITC shells).
 Sheet mapped(const Map& map, int nu, int nv, Cells cells, bool distorted = false);
-/// Quadrilaterals as cells of this kind.
+/// Quadrilaterals as cells of this kind, quadratic ones without their mid-side nodes.
 std::vector<mesh::ShellBlock> blocks_of(const IndexMatrix& quads, Cells cells);
+/// Gives linear cells mid-side nodes at map(mean of u, mean of v), or in the middle of their sides.
+void add_middles(Sheet& sheet, const Map* map = nullptr);
 
 /// One sheet of one thickness.
 struct Plate {
@@ -41,7 +43,7 @@ ShellStiffness stiffness_of(const Plate& plate);
 /// Cells with their directors: block, row.
 ShellCell cell_of(const Sheet& sheet, const std::vector<RowMatrix>& directors, const Plate& plate,
                   size_t block, Eigen::Index row);
-/// A cell alone, its directors the normals at its corners.
+/// A cell of 3, 4, 6 or 8 nodes alone, its directors the normals there.
 ShellCell cell_alone(const ShellNodes& x, const Plate& plate);
 
 struct SheetMatrices {

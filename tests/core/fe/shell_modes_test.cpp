@@ -122,6 +122,36 @@ TEST_P(ShellModes, CylinderWithDiaphragms) {
     expect_values(fine, {978.33, 1072.0, 1150.38, 1332.34, 1696.18, 1696.45}, 1e-4);
 }
 
+class QuadraticShellModes : public ::testing::TestWithParam<Cells> {};
+INSTANTIATE_TEST_SUITE_P(Cells, QuadraticShellModes,
+                         ::testing::Values(Cells::kQuads8, Cells::kTriangles6));
+
+TEST_P(QuadraticShellModes, PlatesHaveTheFrequenciesOfMindlin) {
+  expect_values(square_plate(8, GetParam(), 0.05, {}, {}, {}).tail(9),
+                {1.62057, 2.35927, 2.92193, 4.18747, 4.18747}, 5e-3);
+  expect_values(square_plate(8, GetParam(), 0.05, {2, 3, 4}, {}, {}),
+                {0.41793, 1.02424, 2.56279, 3.27491, 3.72724, 6.52432}, 5e-3);
+  expect_values(square_plate(8, GetParam(), 1.0, {}, {2, 3}, {2, 4}),
+                {45.911, 109.53, 109.53, 168.07}, 5e-3);
+}
+
+TEST_P(QuadraticShellModes, HardU6_AFreePlateHasSixMotionsAndNoSeventh) {
+  Plate plate = kSteel;
+  plate.thickness = 1.5e-3;
+  const Sheet s = mapped([](double u, double v) { return Eigen::Vector3d(0.3 * u, 0.2 * v, 0.0); },
+                         15, 10, GetParam());
+  const Eigen::VectorXd hz = frequencies(assemble(s, plate), {}, 14, 20.0);
+  EXPECT_LE(hz(5), 0.1);  // rounding: 1e-10 of lambda at 10 kHz
+  expect_values(hz.tail(8), {83.337, 88.892, 192.213, 207.166, 239.468, 278.099}, 1e-3);
+}
+
+TEST_P(QuadraticShellModes, CylinderWithDiaphragms) {
+  // Fluegge, as above, with half as many cells each way.
+  expect_values(cylinder(24, 6, GetParam()),
+                {969.433, 1056.466, 1143.369, 1303.488, 1645.682, 1689.511},
+                GetParam() == Cells::kQuads8 ? 5e-3 : 0.03);
+}
+
 /// A sphere of R = 100 mm from a cube of 6 n^2 quadrilaterals.
 Sheet sphere(int n, Cells cells) {
   std::map<std::array<int64_t, 3>, int32_t> numbers;
@@ -156,7 +186,21 @@ Sheet sphere(int n, Cells cells) {
   for (size_t i = 0; i < points.size(); ++i)
     s.nodes.row(static_cast<Eigen::Index>(i)) = points[i].transpose();
   s.shells = blocks_of(quads, cells);
+  if (cells == Cells::kQuads8) {
+    add_middles(s);
+    s.nodes.rowwise().normalize();
+    s.nodes *= 0.1;
+  }
   return s;
+}
+
+TEST(ShellSphere, HardU13_ModesOfQuadraticCellsAreFiveSevenAndNineFold) {
+  const Eigen::VectorXd hz =
+      frequencies(assemble(sphere(5, Cells::kQuads8), kSteel), {}, 27, 1000.0);
+  EXPECT_LE(hz(5), 1.0);
+  expect_values(hz.segment(6, 5), std::vector<double>(5, 6049.2), 4e-3);
+  expect_values(hz.segment(11, 7), std::vector<double>(7, 7165.7), 6e-3);
+  expect_values(hz.segment(18, 9), std::vector<double>(9, 7611.1), 8e-3);
 }
 
 TEST(ShellSphere, ModesOfAClosedSphereAreFiveSevenAndNineFold) {

@@ -63,34 +63,14 @@ TEST(OrientShells, AMoebiusStripKeepsItsSides) {
   EXPECT_EQ(shells[0].nodes, before);
 }
 
-TEST(ShellParts, AQuadraticOneIsFourBetweenItsNodesOfTheSameSide) {
-  ShellFace face{.type = FaceType::kQuad8, .nodes = {0, 1, 2, 3, 4, 5, 6, 7}, .centre = 8};
-  face.values = {1, 3, 5, 7};
-  EXPECT_TRUE(has_centre(face));
-  const std::vector<ShellFace> parts = linear_parts(face);
-  ASSERT_EQ(parts.size(), 4u);
-  const RowMatrix x = (RowMatrix(9, 3) << 0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0,  //
-                       1, 0, 0, 2, 1, 0, 1, 2, 0, 0, 1, 0, 1, 1, 0)
-                          .finished();
-  for (const ShellFace& part : parts) {
-    EXPECT_EQ(shape_of(part, x).defect, "");
-    const Eigen::Vector3d a = x.row(part.nodes[0]), b = x.row(part.nodes[1]),
-                          c = x.row(part.nodes[2]);
-    EXPECT_NEAR((b - a).cross(c - b).z(), 1.0, 1e-14);
-  }
-  EXPECT_EQ(parts[0].values, (std::array<double, 4>{1, 2, 4, 4}));
-  face.nodes[3] = 2;
-  EXPECT_FALSE(has_centre(face));
-  drop_repeated_corner(face);
-  EXPECT_EQ(face.type, FaceType::kTri6);
-  EXPECT_EQ(linear_parts(face).size(), 4u);
-}
-
-TEST(ShellParts, TheCentreOfAParabolaLiesOnIt) {
-  const auto at = [](double x, double y) { return Eigen::Vector3d(x, y, x * x); };
-  const std::array<Eigen::Vector3d, 8> x = {at(-1, -1), at(1, -1), at(1, 1), at(-1, 1),
-                                            at(0, -1),  at(1, 0),  at(0, 1), at(-1, 0)};
-  EXPECT_NEAR(shell_centre(x).norm(), 0.0, 1e-15);
+TEST(OrientShells, MidSideNodesTurnWithTheirSides) {
+  std::vector<ShellBlock> shells = {
+      block(FaceType::kQuad8, {{0, 1, 2, 3, 4, 5, 6, 7}, {1, 2, 12, 11, 5, 15, 14, 13}}),
+      block(FaceType::kTri6, {{2, 12, 20, 15, 21, 22}})};
+  EXPECT_EQ(orient_shells(shells), 1);  // the one between both others
+  EXPECT_EQ(row(shells[0], 0), (std::vector<int32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(row(shells[0], 1), (std::vector<int32_t>{1, 11, 12, 2, 13, 14, 15, 5}));
+  EXPECT_EQ(row(shells[1], 0), (std::vector<int32_t>{2, 12, 20, 15, 21, 22}));
 }
 
 TEST(ShellShape, ConcaveFoldedAndFlatFacesAreNone) {

@@ -126,15 +126,15 @@ TEST(AbaqusShells, ThicknessMayBeThatOfNodes) {
               HasSubstr("element 11: found no *NODAL THICKNESS of node 2"));
 }
 
-TEST(AbaqusShells, QuadraticAndReducedOnesAreSaid) {
+TEST(AbaqusShells, QuadraticOnesKeepTheirNodesAndReducedOnesAreSaid) {
   const Deck deck = read(kSheetNodes +
                          "*NODE\n21, .5, 0, 0\n22, 1, .5, 0\n23, .5, 1, 0\n24, 0, .5, 0\n"
                          "*ELEMENT, TYPE=S8R, ELSET=WALL\n11, 1, 2, 5, 4, 21, 22, 23, 24\n"
                          "*ELEMENT, TYPE=S4R, ELSET=WALL\n12, 2, 3, 6, 22\n" +
                          kShellSection);
-  EXPECT_EQ(deck.mesh.shells.at(0).nodes.rows(), 5);
-  EXPECT_EQ(deck.mesh.node_ids.back(), 25);
-  EXPECT_THAT(notes_of(deck), HasSubstr("1 S8R: each is four linear shells between its nodes"));
+  EXPECT_EQ(deck.mesh.shells.at(0).nodes.rows(), 1);
+  EXPECT_EQ(deck.mesh.shells.at(0).nodes.cols() + deck.mesh.shells.at(1).nodes.cols(), 12);
+  EXPECT_EQ(deck.mesh.node_ids.back(), 24);
   EXPECT_THAT(notes_of(deck), HasSubstr("S4R, S8R are read with full integration"));
 }
 
@@ -143,7 +143,7 @@ TEST(AbaqusShells, TheNodeBetweenEqualCornersIsNoNodeOfTheMesh) {
                          "*NODE\n21, .5, 0, 0\n22, 1, .5, 0\n23, .5, .5, 0\n24, 0, 0, 0\n"
                          "*ELEMENT, TYPE=S8R, ELSET=WALL\n11, 1, 2, 5, 1, 21, 22, 23, 24\n" +
                          kShellSection);
-  EXPECT_EQ(deck.mesh.shells.at(0).nodes.rows(), 4);
+  EXPECT_EQ(deck.mesh.shells.at(0).type, FaceType::kTri6);
   EXPECT_EQ(std::ranges::count(deck.mesh.node_ids, 24), 0);
   EXPECT_EQ(deck.mesh.nodes.rows(), 6);
 }

@@ -93,12 +93,24 @@ TEST(NastranShells, SectionsCountTheStiffnessOfTheirMaterials) {
   EXPECT_THAT(notes_of(plain), HasSubstr("MID3 of 1 PSHELL is blank, rigid in shear"));
 }
 
+TEST(NastranShells, HardU12_AMembraneIsSaidAndThicknessInOtherUnitsIsGuessed) {
+  const std::string cells = kSheetGrids + "MAT1,1,200.,,.25\nCQUAD4,11,2,1,2,5,4\n";
+  const auto membrane = read_deck(cells + "PSHELL,2,1,.1\n");
+  EXPECT_EQ(membrane.shells.at(0).section.bending, 1e-6);
+  EXPECT_THAT(notes_of(membrane), HasSubstr("MID2 of 1 PSHELL is blank, a membrane"));
+  EXPECT_THAT(notes_of(read_deck(cells + "PSHELL,2,1,1-5,1,,1\n")),
+              HasSubstr("1 shells are very thin, this one 1e-05 of its longest side: is the "
+                        "thickness given in m instead of mm by mistake?"));
+  EXPECT_THAT(notes_of(read_deck(cells + "PSHELL,2,1,30.,1,,1\n")),
+              HasSubstr("1 shells are very thick, this one 30 of its longest side: is the "
+                        "thickness given in mm instead of m by mistake?"));
+}
+
 TEST(NastranShells, WhatASectionCannotBeIsRefusedByName) {
   const std::string cells = kSheetGrids +
                             "MAT1,1,200.,,.25\nMAT1,3,100.,,.3\nMAT8,8,1.,1.,.3,1.\n" +
                             "CQUAD4,11,2,1,2,5,4\n";
   const auto of = [&](const std::string& property) { return refusal(cells + property); };
-  EXPECT_THAT(of("PSHELL,2,1,.1\n"), HasSubstr("PSHELL 2: MID2 is blank: a membrane"));
   EXPECT_THAT(of("PSHELL,2,,.1,1\n"), HasSubstr("PSHELL 2: MID1 is blank"));
   EXPECT_THAT(of("PSHELL,2,1,.1,-1\n"), HasSubstr("MID2 is -1: plane strain"));
   EXPECT_THAT(of("PSHELL,2,1,.1,1,,1,,,+\n+,,,3\n"), HasSubstr("MID4 joins stretching to bending"));
@@ -242,7 +254,7 @@ TEST(NastranShells, LayersKeepTheSideOfTheDeck) {
       HasSubstr("CQUAD4 11: MCID 9 is a curved system, expected a rectangular one"));
 }
 
-TEST(NastranShells, QuadraticOnesAreFourLinearOnes) {
+TEST(NastranShells, QuadraticOnesKeepTheirNodes) {
   const std::string middle =
       "GRID,21,,.5,0.,0.\nGRID,22,,1.,.5,0.\nGRID,23,,.5,1.,0.\nGRID,24,,0.,.5,0.\n"
       "GRID,25,,1.5,.0,0.\nGRID,26,,1.5,.5,0.\n";
@@ -250,12 +262,11 @@ TEST(NastranShells, QuadraticOnesAreFourLinearOnes) {
                               "CQUAD8,11,2,1,2,5,4,21,22,+\n+,23,24\n"
                               "CTRIA6,12,2,2,3,5,25,26,22\n");
   const mesh::ShellBlock &triangles = deck.mesh.shells.at(0), &quads = deck.mesh.shells.at(1);
-  EXPECT_THAT(quads.ids, ElementsAre(11, 11, 11, 11));
-  EXPECT_EQ(triangles.nodes.rows(), 4);
-  EXPECT_EQ(deck.mesh.nodes.rows(), 12);
-  EXPECT_EQ(deck.mesh.node_ids.back(), 27);
-  EXPECT_TRUE(deck.mesh.nodes.row(11).isApprox(Eigen::RowVector3d(0.5, 0.5, 0.0), 1e-15));
-  EXPECT_THAT(notes_of(deck), HasSubstr("1 CQUAD8, 1 CTRIA6: each is four linear shells"));
+  EXPECT_EQ(quads.type, mesh::FaceType::kQuad8);
+  EXPECT_EQ(triangles.type, mesh::FaceType::kTri6);
+  EXPECT_THAT(quads.ids, ElementsAre(11));
+  EXPECT_THAT(triangles.ids, ElementsAre(12));
+  EXPECT_EQ(deck.mesh.nodes.rows(), 11);
   EXPECT_EQ(read_deck(kSheetSection + kSheetGrids + "CQUAD8,11,2,1,2,5,4\n")
                 .mesh.shells.at(0)
                 .nodes.rows(),
