@@ -163,7 +163,9 @@ ShellMatrix mass_of(const MidSurface& mid, const ShellCell& cell, MassForm form,
       if (m->trace() != 0.0) lump_hrz(*m);
   std::array<Eigen::Matrix3d, kShellNodes + 1> turned;  // theta x V = turned theta
   for (Eigen::Index i = 0; i < n; ++i) turned[i] = cross_matrix(mid.moving_V.row(i));
-  ColumnSquare M = ColumnSquare::Zero(6 * n, 6 * n);
+  constexpr int kMost = kShellDofs + 6;
+  using Mass = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
+  Mass M = Mass::Zero(6 * n, 6 * n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
       M.block<3, 3>(6 * i, 6 * j).diagonal().setConstant(nodal.total(i, j));
@@ -172,11 +174,16 @@ ShellMatrix mass_of(const MidSurface& mid, const ShellCell& cell, MassForm form,
       M.block<3, 3>(6 * i + 3, 6 * j + 3) =
           nodal.rotary(i, j) * turned[i].transpose().lazyProduct(turned[j]);
     }
-  const Eigen::Index nodes = 6 * mid.x.rows(), own = M.rows() - nodes;
-  if (own == 0) return M;
-  ShellMatrix out = M.topLeftCorner(nodes, nodes) + M.topRightCorner(nodes, own).lazyProduct(inner);
-  out += inner.transpose().lazyProduct(M.bottomLeftCorner(own, nodes) +
-                                       M.bottomRightCorner(own, own).lazyProduct(inner));
+  const Eigen::Index nodes = 6 * mid.x.rows();
+  if (M.rows() == nodes) return M;
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kShellDofs> centre(6, nodes);
+  centre.topRows<3>() = inner.topRows<3>();
+  centre.bottomRows<3>() = SurfacePoint(mid, Eigen::Vector2d::Zero())
+                               .axes.leftCols<2>()
+                               .lazyProduct(inner.bottomRows<2>());
+  ShellMatrix out = M.topLeftCorner(nodes, nodes) + M.topRightCorner(nodes, 6).lazyProduct(centre);
+  out += centre.transpose().lazyProduct(M.bottomLeftCorner(6, nodes) +
+                                        M.bottomRightCorner(6, 6).lazyProduct(centre));
   return out;
 }
 

@@ -118,7 +118,11 @@ ShellRow ShellTheory::turning(const Eigen::Vector3d& direction, const ShellWeigh
   ShellRow row = ShellRow::Zero(columns());
   for (Eigen::Index i = 0; i < weight.size(); ++i) {
     const Eigen::Vector3d V = mid_.moving_V.row(i);
-    row.segment<3>(6 * i + 3) = weight(i) * V.cross(direction).transpose();
+    const Eigen::RowVector3d by_theta = weight(i) * V.cross(direction).transpose();
+    if (i < mid_.x.rows())
+      row.segment<3>(6 * i + 3) = by_theta;
+    else
+      row.segment<2>(6 * i + 3) = by_theta * centre_.axes.leftCols<2>();
   }
   return row;
 }
@@ -150,10 +154,10 @@ ShellRow ShellTheory::drilling(const SurfacePoint& p) const {
   const Eigen::Vector3d e1 = p.axes.col(0), e2 = p.axes.col(1);
   const Eigen::Matrix2d& g = p.to_axes;
   // (e2 . u,1 - e1 . u,2) / 2 is the rotation of the membrane.
-  ShellRow row = translation(0.5 * (g(1, 0) * e1 - g(0, 0) * e2), p.m_r) +
-                 translation(0.5 * (g(1, 1) * e1 - g(0, 1) * e2), p.m_s);
-  for (Eigen::Index i = 0; i < p.m.size(); ++i)
-    row.segment<3>(6 * i + 3) = p.m(i) * p.normal.transpose();
+  ShellRow row = translation(0.5 * (g(1, 0) * e1 - g(0, 0) * e2), p.h_r) +
+                 translation(0.5 * (g(1, 1) * e1 - g(0, 1) * e2), p.h_s);
+  for (Eigen::Index i = 0; i < p.h.size(); ++i)
+    row.segment<3>(6 * i + 3) = p.h(i) * p.normal.transpose();
   return row;
 }
 

@@ -15,7 +15,7 @@
 namespace clatter::fe {
 
 inline constexpr int kShellStrains = 9;
-inline constexpr int kShellInner = 6;                           // at most
+inline constexpr int kShellInner = 5;                           // at most
 inline constexpr int kShellColumns = kShellDofs + kShellInner;  // at most
 
 using ShellRow = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kShellColumns>;
@@ -85,6 +85,7 @@ class ShellTheory {
   ShellRows<3> curvature(const SurfacePoint& point) const;
   /// Twice the component of the shear strain along r (0) or s (1): x,i . w + V . u,i.
   ShellRow shear(const SurfacePoint& point, int i) const;
+  /// By the motion of the nodes alone.
   ShellRow drilling(const SurfacePoint& point) const;
   /// direction . theta x V of a rotation in two inner columns, at the centre about its directions 1
   /// and 2, whose factor (a bubble or its derivative) is `factor`.
@@ -138,7 +139,8 @@ class TriangleShell final : public ShellTheory {
 /// strain; of a tri6 one of the membrane strain at three points.
 using TiedRows = ShellRows<3>;
 
-/// Six inner columns: the motion of the centre beside that of the nodes.
+/// Five inner columns: the motion of the centre beside that of the nodes, without rotation about
+/// the director, which would move nothing.
 class Quad8Shell final : public ShellTheory {
  public:
   explicit Quad8Shell(const MidSurface& mid);

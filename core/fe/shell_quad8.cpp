@@ -24,7 +24,8 @@ Eigen::Vector3d through_three(double x) {
 
 }  // namespace
 
-Quad8Shell::Quad8Shell(const MidSurface& mid) : ShellTheory(mid, Eigen::Vector2d::Zero(), 6) {
+Quad8Shell::Quad8Shell(const MidSurface& mid)
+    : ShellTheory(mid, Eigen::Vector2d::Zero(), kShellInner) {
   const auto rows = [&](double r, double s, int i) {
     const SurfacePoint p(mid, {r, s});
     TiedRows out(3, columns());

@@ -15,6 +15,8 @@
 #include "core/mesh/boundary.hpp"
 #include "core/mesh/free_edges.hpp"
 #include "core/mesh/orient_shells.hpp"
+#include "core/mesh/quadrature.hpp"
+#include "core/mesh/shape.hpp"
 #include "core/mesh/shell_shape.hpp"
 #include "mesh/part/mesh_sizes.hpp"
 #include "mesh/part/predict_cells.hpp"
@@ -115,6 +117,55 @@ SheetCellsOfFaces cells_of(RawSheet& raw, const SheetFaces& sheet, double metres
   }
   if (out.blocks.empty()) throw NumericsError("gmsh: the sheet got no cells");
   return out;
+}
+
+/// Whether a normal of a quadratic cell is far off that at its centre: too curved, or folded.
+bool is_folded(const Mesh& mesh, const ShellBlock& block, Eigen::Index row) {
+  constexpr double kCosine = 0.6;
+  const RowMatrix x = mesh.nodes(block.nodes.row(row), Eigen::all);
+  const auto normal_at = [&](const Eigen::Vector2d& at) {
+    const Eigen::Matrix<double, 3, 2> tangent = x.transpose() * face_shape(block.type, at).gradient;
+    return Eigen::Vector3d(tangent.col(0).cross(tangent.col(1)).normalized());
+  };
+  const bool is_triangle = traits(block.type).corners == 3;
+  const Eigen::Vector3d middle =
+      normal_at(is_triangle ? Eigen::Vector2d::Constant(1.0 / 3.0) : Eigen::Vector2d::Zero());
+  const auto is_far = [&](const Eigen::MatrixX2d& points) {
+    for (Eigen::Index i = 0; i < points.rows(); ++i)
+      if (!(normal_at(points.row(i).transpose()).dot(middle) > kCosine)) return true;
+    return false;
+  };
+  return is_far(reference_nodes(block.type)) ||
+         is_far(is_triangle ? triangle_rule_6().points : quad_rule_9().points);
+}
+
+/// Halves the sides of quadratic cells that are folded, and so of their neighbours: on coarse cells
+/// beside small curves a node of the CAD lies too far off.
+void straighten_folded(Mesh& mesh) {
+  int64_t straight = 0;
+  for (bool found = true; found;) {
+    found = false;
+    for (const ShellBlock& block : mesh.shells) {
+      const int corners = traits(block.type).corners;
+      for (Eigen::Index c = 0; c < block.nodes.rows() && traits(block.type).order == 2; ++c) {
+        if (!is_folded(mesh, block, c)) continue;
+        bool moved = false;
+        for (int i = 0; i < corners; ++i) {
+          const Eigen::RowVector3d half = 0.5 * (mesh.nodes.row(block.nodes(c, i)) +
+                                                 mesh.nodes.row(block.nodes(c, (i + 1) % corners)));
+          moved = moved || mesh.nodes.row(block.nodes(c, corners + i)) != half;
+          mesh.nodes.row(block.nodes(c, corners + i)) = half;
+        }
+        straight += moved ? 1 : 0;
+        found = found || moved;
+      }
+    }
+  }
+  if (straight > 0)
+    warn(
+        fmt::format("mesh: {} quadratic shells have straight sides, where those of the CAD would "
+                    "fold them: smaller cells there follow it",
+                    straight));
 }
 
 /// Turns the cells of each face to its outward side, where the points on it tell which.
@@ -253,6 +304,7 @@ PartMesh mesh_sheet(GmshSession& session, const PartGeometry& part, const MeshSe
   SheetCellsOfFaces cells = cells_of(raw, sheet, metres);
   mesh.nodes = metres * raw.nodes;
   mesh.shells = std::move(cells.blocks);
+  straighten_folded(mesh);
   turn_outward(sheet, metres, cells.faces, mesh);
   orient_shells(mesh.shells);
   for (ShellBlock& block : mesh.shells)

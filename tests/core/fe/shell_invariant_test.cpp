@@ -153,13 +153,16 @@ TEST(ShellMass, HardU7_ASheetTiltedByRoundingHasNoMassAboutItsNormal) {
     const Eigen::Matrix3d tilt =
         Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, 2.0, 0.0).normalized()).toRotationMatrix();
     plate.offset = 3e3 * angle;
-    ShellNodes x(4, 3);
-    x << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
-    ShellMatrices out;
-    ASSERT_TRUE(compute_shell(cell_alone(x * tilt.transpose(), plate), MassForm::kConsistent, out));
-    for (int node = 0; node < 4; ++node) {
-      EXPECT_EQ(out.mass.row(6 * node + 5).cwiseAbs().maxCoeff(), 0.0);
-      EXPECT_GT(out.mass(6 * node + 3, 6 * node + 3), 0.0);
+    ShellNodes x(8, 3);
+    x << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0, 0, 1, 0.5, 0, 0.5, 1, 0, 0, 0.5, 0;
+    for (const int n : {4, 8}) {
+      const ShellNodes tilted = x.topRows(n) * tilt.transpose();
+      ShellMatrices out;
+      ASSERT_TRUE(compute_shell(cell_alone(tilted, plate), MassForm::kConsistent, out));
+      for (int node = 0; node < n; ++node) {
+        EXPECT_EQ(out.mass.row(6 * node + 5).cwiseAbs().maxCoeff(), 0.0) << n;
+        EXPECT_GT(out.mass(6 * node + 3, 6 * node + 3), 0.0) << n;
+      }
     }
   }
 }
