@@ -46,6 +46,17 @@ double largest_ratio(const VectorXd& part, const VectorXd& whole) {
   return most;
 }
 
+/// |A| |x| + |b|, and where that is rounding beside the row of A times the largest x, that: a row
+/// between DoFs that hardly move has nothing to be compared with (Arioli, Demmel and Duff 1989).
+/// @param rows sums of |A|. @param most largest |x|.
+VectorXd whole_rows(const VectorXd& size, const VectorXd& rows, const VectorXd& b, double most) {
+  const double rounding = 1000.0 * static_cast<double>(size.size()) * kEps;
+  VectorXd out = size;
+  for (Index i = 0; i < size.size(); ++i)
+    if (size[i] <= rounding * (rows[i] * most + std::abs(b[i]))) out[i] += rows[i] * most;
+  return out;
+}
+
 /// Lower bound, mostly sharp, of max_i (|A^{-1}| w)_i = |diag(w) A^{-1}|_1, w >= 0.
 double inverse_times(const sparse::SupernodalFactor& factor, const VectorXd& w) {
   const Index n = w.size();
@@ -89,13 +100,14 @@ RefinedSolution solve_refined(const sparse::SupernodalFactor& factor, const Spar
   out.x = factor.solve(b);
   out.backward.resize(b.cols());
   out.forward.resize(b.cols());
+  const VectorXd rows = magnitude_product(lower, VectorXd::Ones(b.rows()));
   for (Index c = 0; c < b.cols(); ++c) {
     refine(factor, lower, b.col(c), out.x.col(c), out.steps);
     const VectorXd x = out.x.col(c);
     const VectorXd size = VectorXd(magnitude_product(lower, x)) + b.col(c).cwiseAbs();
     const VectorXd rest = extended_residual(lower, x, b.col(c));
-    out.backward[c] = largest_ratio(rest, size);
     const double most = x.lpNorm<Eigen::Infinity>();
+    out.backward[c] = largest_ratio(rest, whole_rows(size, rows, b.col(c), most));
     out.forward[c] = most > 0.0 ? inverse_times(factor, rest.cwiseAbs() + kEps * size) / most : 0.0;
   }
   return out;

@@ -10,9 +10,11 @@ namespace clatter::modal {
 struct RefinedSolution {
   Eigen::MatrixXd x;         // n x m
   Eigen::VectorXd backward;  // m: max_i |b - A x|_i / (|A| |x| + |b|)_i, the relative change of the
-                             // entries for which x is exact (Oettli and Prager 1964)
-  Eigen::VectorXd forward;   // m: estimated error of x relative to its largest entry
-  int steps = 0;             // of refinement
+                             // entries for which x is exact (Oettli and Prager 1964); of rows whose
+                             // denominator is rounding, |A| max |x| in its place (Arioli, Demmel
+                             // and Duff 1989)
+  Eigen::VectorXd forward;  // m: estimated error of x relative to its largest entry
+  int steps = 0;            // of refinement
 };
 
 /// Iterative refinement with the residual in extended precision until it stagnates (Wilkinson 1963;
