@@ -13,8 +13,8 @@ struct RefinedSolution {
                              // entries for which x is exact (Oettli and Prager 1964); of rows whose
                              // denominator is rounding, |A| max |x| in its place (Arioli, Demmel
                              // and Duff 1989)
-  Eigen::VectorXd forward;  // m: estimated error of x relative to its largest entry
-  int steps = 0;            // of refinement
+  Eigen::VectorXd forward;   // m: estimated error of x relative to its largest entry
+  int steps = 0;             // of refinement
 };
 
 /// Iterative refinement with the residual in extended precision until it stagnates (Wilkinson 1963;
