@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -46,6 +47,10 @@ class Fasteners {
  public:
   explicit Fasteners(Model& model) : model_(model), search_(model.deck.mesh) {
     for (const RawSkin& shell : model.raw.shell_cells) property_[shell.id] = shell.property;
+    const std::vector<ShellBlock>& blocks = model.deck.mesh.shells;
+    for (size_t b = 0; b < blocks.size(); ++b)
+      for (size_t row = 0; row < blocks[b].ids.size(); ++row)
+        shells_[blocks[b].ids[row]] = {b, static_cast<Eigen::Index>(row)};
   }
 
   void add(const RawFastener& raw) {
@@ -119,14 +124,18 @@ class Fasteners {
       return nearest_point(face, mesh.nodes, point);
     }
     const int32_t number = raw_->numbers[end];
-    const bool is_shell = raw_->kinds[end] == End::kShell;
-    const auto of_shell = property_.find(number);
-    if (is_shell && of_shell == property_.end()) fail(fmt::format("found no shell {}", number));
-    const int32_t property = is_shell ? of_shell->second : number;
+    if (raw_->kinds[end] == End::kProperty)
+      return search_.nearest(point, reach, [&](size_t block, Eigen::Index row) {
+        const auto of = property_.find(mesh.shells[block].ids[static_cast<size_t>(row)]);
+        return of != property_.end() && of->second == number;
+      });
+    // The shell and those around it: another sheet may have the same property.
+    const auto named = shells_.find(number);
+    if (named == shells_.end()) fail(fmt::format("found no shell {}", number));
+    const auto own = mesh.shells[named->second.first].nodes.row(named->second.second);
     return search_.nearest(point, reach, [&](size_t block, Eigen::Index row) {
-      const int32_t id = mesh.shells[block].ids[static_cast<size_t>(row)];
-      const auto of = property_.find(id);
-      return of != property_.end() && of->second == property;
+      const auto nodes = mesh.shells[block].nodes.row(row);
+      return std::find_first_of(own.begin(), own.end(), nodes.begin(), nodes.end()) != own.end();
     });
   }
 
@@ -297,7 +306,9 @@ class Fasteners {
 
   Model& model_;
   ShellSearch search_;
-  std::unordered_map<int32_t, int32_t> property_;  // of each shell
+  // By the number of each shell.
+  std::unordered_map<int32_t, int32_t> property_;
+  std::unordered_map<int32_t, std::pair<size_t, Eigen::Index>> shells_;  // block and row
   const RawFastener* raw_ = nullptr;
 };
 

@@ -97,6 +97,20 @@ TEST(NastranFasteners, ShellsGridsAndPiercingPointsAreEndsToo) {
   EXPECT_EQ(deck.springs[3].terms.size(), 2u);
 }
 
+// Flanges of one property, of which GS lies nearer to the lower one.
+TEST(NastranFasteners, SheetsOfOnePropertyAreJoinedByTheirShells) {
+  std::string text = two_sheets();
+  for (size_t at = 0; (at = text.find("CQUAD4,10", at)) != std::string::npos; ++at)
+    text[text.find(',', at + 7) + 1] = '1';
+  const Deck deck = read_deck(text + kFast + "CFAST,50,7,ELEM,5,105,,,,+\n+,15.,15.,1.\n");
+  ASSERT_EQ(deck.springs.size(), 6u);
+  const Vector3d u(2.0, 3.0, 1.0), still(0.0, 0.0, 0.0);
+  for (int k = 0; k < 3; ++k) {  // along z, x, y
+    const Spring& spring = deck.springs[static_cast<size_t>(k)];
+    EXPECT_NEAR(elongation(deck, spring, u, still), u((k + 2) % 3), 1e-13);
+  }
+}
+
 TEST(NastranFasteners, AWeldIsARoundBarWithShear) {
   const double D = 6.0, area = std::numbers::pi * 9.0, I = area * D * D / 16.0,
                G = kE / (2.0 * (1.0 + kNu));
