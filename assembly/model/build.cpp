@@ -166,16 +166,34 @@ Eigen::MatrixXd momentum_of(const SparseMatrix& M, const PartData& part) {
   return multiply_symmetric(M, unit);
 }
 
+/// A field of accelerations holds at the centres of quad8 cells too, which in M move as their
+/// equilibrium asks: the mass of the nodes' shape functions less that in M.
+SparseMatrix mass_of_fields_beside(const PartData& part) {
+  mesh::Mesh mesh = part.mesh;
+  std::erase_if(mesh.shells,
+                [](const mesh::ShellBlock& block) { return block.type != mesh::FaceType::kQuad8; });
+  if (mesh.shells.empty()) return {};
+  const fe::ShellIds ids = shell_ids(part.numbers, mesh.nodes.rows());
+  const auto mass = [&](fe::MassForm form) {
+    return fe::assemble_shells(mesh, part.recipe.materials, part.recipe.sections, ids, form).M;
+  };
+  return mass(fe::MassForm::kNodes) - mass(part.recipe.mass);
+}
+
 /// M a of each load with a field of accelerations.
 std::map<std::string, Eigen::VectorXd> momenta_of_fields(const SparseMatrix& M,
                                                          const PartData& part) {
   std::map<std::string, Eigen::VectorXd> momenta;
+  SparseMatrix beside;
   for (const LoadSpec& load : part.recipe.loads) {
     if (load.kind != LoadSpec::Kind::kAcceleration || load.field.empty()) continue;
+    if (momenta.empty()) beside = mass_of_fields_beside(part);
     const RowMatrix& field = part.mesh.fields.at(load.field);
     Eigen::VectorXd a = Eigen::VectorXd::Zero(M.rows());
     a.head(field.size()) = load.amount * field.reshaped<Eigen::RowMajor>();
-    momenta[load.name] = multiply_symmetric(M, a);
+    Eigen::VectorXd momentum = multiply_symmetric(M, a);
+    if (beside.rows() > 0) momentum += multiply_symmetric(beside, a);
+    momenta[load.name] = std::move(momentum);
   }
   return momenta;
 }

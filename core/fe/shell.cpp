@@ -135,6 +135,15 @@ struct NodalMass {
   Eigen::MatrixXd total, moment, rotary;
 };
 
+/// From what moves to the nodes and the centre of a quad8, which also moves with its nodes.
+MovingSquare with_centre(const MidSurface& mid) {
+  const Eigen::Index n = mid.moving_V.rows(), nodes = mid.x.rows();
+  MovingSquare out = MovingSquare::Identity(n, n);
+  if (n > nodes)
+    out.row(nodes).head(nodes) = SurfacePoint(mid, Eigen::Vector2d::Zero()).h.transpose();
+  return out;
+}
+
 /// @param n of what moves, from the first.
 NodalMass nodal_mass(const MidSurface& mid, const ShellCell& cell, Eigen::Index n) {
   const mesh::FaceRule& rule = mesh::face_rule(mid.type);
@@ -152,15 +161,24 @@ NodalMass nodal_mass(const MidSurface& mid, const ShellCell& cell, Eigen::Index 
   return out;
 }
 
+/// At the nodes, and at the centre of a quad8, where its nine Lagrange functions are 1.
+void lump(const MidSurface& mid, NodalMass& nodal) {
+  const MovingSquare to_nodes = with_centre(mid), from_nodes = to_nodes.inverse();
+  for (Eigen::MatrixXd* m : {&nodal.total, &nodal.moment, &nodal.rotary}) {
+    if (m->trace() == 0.0) continue;
+    *m = from_nodes.transpose() * *m * from_nodes;
+    lump_hrz(*m);
+    *m = to_nodes.transpose() * *m * to_nodes;
+  }
+}
+
 /// Of the mid-surface. A rotation about a director moves no mass: its inertia is that of
-/// w = theta x V. The centre of a quad8 moves by `inner` with the nodes in a consistent mass alone.
+/// w = theta x V. The centre of a quad8 moves by `inner` with the nodes; with kNodes it rests.
 ShellMatrix mass_of(const MidSurface& mid, const ShellCell& cell, MassForm form,
                     const InnerByNodes& inner) {
-  const Eigen::Index n = form == MassForm::kConsistent ? mid.moving_V.rows() : mid.x.rows();
+  const Eigen::Index n = form == MassForm::kNodes ? mid.x.rows() : mid.moving_V.rows();
   NodalMass nodal = nodal_mass(mid, cell, n);
-  if (form == MassForm::kHrz)
-    for (Eigen::MatrixXd* m : {&nodal.total, &nodal.moment, &nodal.rotary})
-      if (m->trace() != 0.0) lump_hrz(*m);
+  if (form == MassForm::kHrz) lump(mid, nodal);
   std::array<Eigen::Matrix3d, kShellNodes + 1> turned;  // theta x V = turned theta
   for (Eigen::Index i = 0; i < n; ++i) turned[i] = cross_matrix(mid.moving_V.row(i));
   constexpr int kMost = kShellDofs + 6;

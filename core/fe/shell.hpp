@@ -50,8 +50,8 @@ struct ShellMatrices {
 /// Where the sheet is `ratio` as thick, A, S and the mass of the material have this factor, B and
 /// the moment of the mass its square, D and the rotary inertia its cube. The mass is consistent,
 /// with the rotary inertia of theta x V: none about V; the centre of a quad8 has its share, else
-/// thin curved sheet would be too soft by several per cent. kHrz: it has 6 x 6 blocks at the nodes
-/// alone.
+/// thin curved sheet would be too soft by several per cent. kHrz: it is lumped at the nodes and at
+/// the centre of a quad8, which moves with all of them: other cells have 6 x 6 blocks alone.
 /// @return false where the cell is no shell: concave, folded (to a triangle, or a director more
 /// than 60 degrees off the normal), without area, or not finite.
 bool compute_shell(const ShellCell& cell, MassForm form, ShellMatrices& out);

@@ -226,6 +226,44 @@ TEST(LoadCase, AFieldOfAccelerationsActsThroughTheMassMatrix) {
                      {"field: field and direction exclude each other"});
 }
 
+/// A cell of a cylinder of 0.1 m about z.
+mesh::Mesh quadratic_shell() {
+  mesh::Mesh mesh;
+  mesh.name = "shell";
+  mesh.regions = {"body"};
+  mesh::ShellBlock block;
+  block.type = mesh::FaceType::kQuad8;
+  block.nodes.resize(1, 8);
+  const RowMatrix rs = mesh::reference_nodes(block.type);
+  mesh.nodes.resize(8, 3);
+  for (int i = 0; i < 8; ++i) {
+    const double angle = 0.5 * rs(i, 0);
+    mesh.nodes.row(i) << 0.1 * std::cos(angle), 0.1 * std::sin(angle), 0.05 * rs(i, 1);
+    block.nodes(0, i) = i;
+  }
+  mesh.shells = {block};
+  mesh.surfaces["skin"] = mesh::skin_of({}, mesh.shells);
+  return mesh;
+}
+
+// The centre of the cell is accelerated as its nodes are, not as its equilibrium moves it.
+TEST(LoadCase, AFieldOfAccelerationsHoldsWithinQuadraticShells) {
+  mesh::Mesh mesh = quadratic_shell();
+  mesh.fields["arm"] = mesh.nodes;
+  mesh.fields["arm"].col(2).setZero();
+  for (const std::string mass : {"", "[mass]\nlumping = 'hrz'\n"}) {
+    const fe::FeModel model =
+        build(mesh, mass +
+                        "[[shell]]\nregions = [\"body\"]\nthickness = 0.001\n"
+                        "[[load]]\nname = \"spin\"\nkind = \"centrifugal\"\naxis_point = [0.0, "
+                        "0.0, 0.0]\naxis = [0.0, 0.0, 1.0]\n"
+                        "[[load]]\nname = \"field\"\nkind = \"acceleration\"\nfield = \"arm\"\n")
+            .model;
+    const Eigen::VectorXd spin = model.loads.at("spin"), field = model.loads.at("field");
+    EXPECT_LT((field - spin).norm(), 1e-13 * spin.norm());
+  }
+}
+
 TEST(LoadCase, ForceAndMomentOnAReferenceNodeAreItsCoordinatesForces) {
   const fe::FeModel model = build(short_bar(), R"(
 [[coupling]]
