@@ -25,14 +25,19 @@ class EarlierSound : public SoundRun {
       return earlier_samples(folder_ / "part.sound.h5", rom_, sound);
     };
   }
-  /// How many frequencies a sound with these options takes from the file.
+  /// How many frequencies a sound with these options takes from the file; it is not made.
   size_t taken(const SoundOptions& options, const std::string& rom) {
-    size_t count = 0;
-    made(options, [&](const PartSound& sound) {
-      count = earlier_samples(folder_ / "part.sound.h5", rom, sound).size();
-      return std::vector<SoundSample>();
-    });
-    return count;
+    struct Taken {
+      size_t count;
+    };
+    try {
+      made(options, [&](const PartSound& sound) -> std::vector<SoundSample> {
+        throw Taken{earlier_samples(folder_ / "part.sound.h5", rom, sound).size()};
+      });
+    } catch (const Taken& taken) {
+      return taken.count;
+    }
+    throw std::logic_error("no earlier sound was asked for");
   }
 };
 
