@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Properties of the faces of solids from Gmsh and OpenCASCADE: samples, shapes, curvature.
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -113,6 +114,78 @@ double GmshSession::smallest_radius(int face) {
   return least == all.end() || std::isinf(*least) ? 0.0 : *least;
 }
 
+void GmshSession::remember_names() {
+  gmsh_call("gmsh: names of faces", [&] {
+    synchronize();
+    gmsh::vectorpair faces;
+    gmsh::model::getEntities(faces, 2);
+    for (const auto& [dim, tag] : faces) {
+      NamedFace face;
+      gmsh::model::getEntityName(2, tag, face.label);
+      if (face.label.empty()) continue;
+      gmsh::model::occ::getMass(2, tag, face.area);
+      gmsh::model::occ::getCenterOfMass(2, tag, face.centre.x(), face.centre.y(), face.centre.z());
+      named_.push_back(std::move(face));
+    }
+  });
+}
+
+std::string GmshSession::label_of(const FaceFacts& face) const {
+  constexpr double kSame = 1e-6;
+  for (const NamedFace& named : named_)
+    if (std::abs(named.area - face.area) <= kSame * face.area &&
+        (named.centre - face.centre).norm() <= kSame * std::sqrt(face.area))
+      return named.label;
+  return "";
+}
+
+std::map<size_t, PlaceOnGeometry> GmshSession::places_of_nodes() const {
+  return gmsh_call("gmsh: parameters of nodes", [&] {
+    std::map<size_t, PlaceOnGeometry> places;
+    for (const int dim : {1, 2}) {
+      gmsh::vectorpair entities;
+      gmsh::model::getEntities(entities, dim);
+      for (const auto& [of_dim, tag] : entities) {
+        std::vector<size_t> nodes;
+        std::vector<double> x, all;
+        gmsh::model::mesh::getNodes(nodes, x, all, dim, tag, false, true);
+        const auto each = static_cast<size_t>(dim);
+        if (all.size() != each * nodes.size()) gmsh::model::getParametrization(dim, tag, x, all);
+        for (size_t i = 0; i < nodes.size(); ++i) {
+          PlaceOnGeometry& place = places[nodes[i]];
+          place = {dim, tag, {}};
+          std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(each * i), each, place.at.begin());
+        }
+      }
+    }
+    return places;
+  });
+}
+
+Eigen::Vector3d GmshSession::nearest_point(const Eigen::Vector3d& x, PlaceOnGeometry& place) {
+  constexpr int kSteps = 5;
+  constexpr double kSame = 1e-12;  // of the range of the parameters
+  return gmsh_call("gmsh: nearest point", [&] {
+    std::vector<double> low, high, value, gradient;
+    gmsh::model::getParametrizationBounds(place.dim, place.tag, low, high);
+    const Eigen::Map<const Eigen::VectorXd> from(low.data(), place.dim), to(high.data(), place.dim);
+    Eigen::Map<Eigen::VectorXd> at(place.at.data(), place.dim);
+    for (int step = 0;; ++step) {
+      const std::vector<double> parameters(at.begin(), at.end());
+      gmsh::model::getValue(place.dim, place.tag, parameters, value);
+      const Eigen::Vector3d found(value.at(0), value.at(1), value.at(2));
+      if (step == kSteps) return found;
+      gmsh::model::getDerivative(place.dim, place.tag, parameters, gradient);
+      const Eigen::Map<Eigen::MatrixXd> J(gradient.data(), 3, place.dim);
+      const Eigen::VectorXd change = (J.transpose() * J).ldlt().solve(J.transpose() * (x - found));
+      if (!change.allFinite()) return found;
+      const Eigen::VectorXd next = (at + change).cwiseMax(from).cwiseMin(to);
+      if (((next - at).array().abs() <= kSame * (to - from).array()).all()) return found;
+      at = next;
+    }
+  });
+}
+
 std::vector<FaceFacts> GmshSession::boundary_faces() { return faces(false); }
 
 std::vector<FaceFacts> GmshSession::faces_of_solids() { return faces(true); }
@@ -131,6 +204,7 @@ std::vector<FaceFacts> GmshSession::faces(bool shared) {
       if (up.size() == 1 || solids.empty()) facts.push_back(facts_of(tag));
       if (up.size() == 2 && shared) facts.insert(facts.end(), 2, facts_of(tag));
     }
+    for (FaceFacts& face : facts) face.label = label_of(face);
     return facts;
   });
 }

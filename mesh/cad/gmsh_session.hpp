@@ -63,6 +63,12 @@ struct RawMesh {
       face_cells;  // by face tag: tri3 or tri6, orientation as the face has it
 };
 
+/// Of a node inside a face or a curve.
+struct PlaceOnGeometry {
+  int dim = 2, tag = 0;
+  std::array<double, 2> at{};  // parameters; of a curve the first
+};
+
 /// A mesh of faces alone; tables hold rows of `nodes`.
 struct RawSheet {
   struct Cells {
@@ -153,6 +159,9 @@ class GmshSession {
   std::vector<double> radii(int face);
   /// The smallest of these; 0 for a plane face.
   double smallest_radius(int face);
+  /// The point of the place's face or curve that is nearest to x, by Gauss and Newton from the
+  /// place's parameters, which become its own.
+  Eigen::Vector3d nearest_point(const Eigen::Vector3d& x, PlaceOnGeometry& place);
   /// Smallest and largest coordinates of all solids, from the edges of their faces.
   BoxFilter extent();
 
@@ -192,6 +201,8 @@ class GmshSession {
   /// Moves mid-side nodes until curved cells unfold (Gmsh's HighOrderElastic; hard case G2).
   void repair_curved_cells();
   RawMesh extract() const;
+  /// Of the nodes of the mesh that lie inside faces and curves, by Gmsh's numbers.
+  std::map<size_t, PlaceOnGeometry> places_of_nodes() const;
   static std::string library_version();  // of the header: "4.8"
   std::string running_version() const;   // of the library: "4.8.4"
 
@@ -207,6 +218,16 @@ class GmshSession {
   std::vector<FaceFacts> faces(bool shared);
   RawMesh extract_skin() const;
   std::string reason_of_failure() const;
+  void remember_names();
+  std::string label_of(const FaceFacts& face) const;
+
+  /// A face with a name as it was read: tags and Gmsh's own names do not survive booleans.
+  struct NamedFace {
+    std::string label;
+    double area;
+    Eigen::Vector3d centre;
+  };
+  std::vector<NamedFace> named_;
   bool synchronized_ = false;
   int order_ = 1;
 };

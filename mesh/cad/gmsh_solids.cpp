@@ -6,6 +6,7 @@
 
 #include "mesh/cad/gmsh_call.hpp"
 #include "mesh/cad/gmsh_session.hpp"
+#include "mesh/cad/step_names.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -267,6 +268,7 @@ gmsh::vectorpair GmshSession::import_shapes(const std::filesystem::path& path,
   gmsh_call<InputError>(path.string(), [&] {
     const QuietStdout quiet;
     if (iges) wake_iges_units(path);
+    keep_step_names();
     gmsh::option::setString("Geometry.OCCTargetUnit", occ_unit(unit));  // before import (G6)
     // IGES mostly holds separate faces: they are sewn to solids.
     gmsh::option::setNumber("Geometry.OCCSewFaces", iges);
@@ -274,6 +276,7 @@ gmsh::vectorpair GmshSession::import_shapes(const std::filesystem::path& path,
     occ::importShapes(path.string(), out);
   });
   synchronized_ = false;
+  remember_names();
   return out;
 }
 

@@ -129,10 +129,11 @@ std::string json_of(const FaceList& list, const FaceFacts& face, double margin) 
   const BoxFilter box = box_of(face);
   const double size = size_of(face);
   return fmt::format(
-      "{{\"number\": {}, \"kind\": \"{}\", \"spline\": {}, \"concave\": {}, \"radius\": {}, "
+      "{{\"number\": {}, \"named\": {}, \"kind\": \"{}\", \"spline\": {}, \"concave\": {}, "
+      "\"radius\": {}, "
       "\"minor_radius\": {}, \"half_angle_deg\": {}, \"direction\": {}, \"place\": {}, "
       "\"centre\": {}, \"area\": {}, \"box\": [{}, {}], \"surfaces\": {}, \"toml\": {}}}",
-      face.tag, name_of(shape.kind), shape.is_spline,
+      face.tag, json_text(name_in_cad(face)), name_of(shape.kind), shape.is_spline,
       list.oriented && is_round(shape.kind) ? fmt::format("{}", shape.is_concave) : "null",
       digits(shape.radius), digits(shape.minor_radius), digits(shape.half_angle_deg),
       list_of(shape.direction, 1.0), list_of(position_of(face), size), list_of(face.centre, size),
@@ -177,24 +178,30 @@ std::vector<std::string> filter_lines(const FaceFacts& face, double margin) {
 }
 
 std::vector<std::string> table_of(const FaceList& list) {
-  std::vector<std::array<std::string, 7>> rows = {
+  const bool named = std::ranges::any_of(
+      list.faces, [](const FaceFacts& face) { return !name_in_cad(face).empty(); });
+  std::vector<std::array<std::string, 8>> rows = {
       {"face", "kind", fmt::format("radius [{}]", list.unit), "axis or normal",
-       fmt::format("position [{}]", list.unit), fmt::format("area [{}2]", list.unit), "surfaces"}};
+       fmt::format("position [{}]", list.unit), fmt::format("area [{}2]", list.unit),
+       named ? "name" : "", "surfaces"}};
   for (const FaceFacts& face : list.faces) {
     const bool directed = face.shape.direction.norm() > 0.0;
     rows.push_back({fmt::format("{}", face.tag), kind_text(face.shape), radius_text(face.shape),
                     directed ? triple(face.shape.direction, 1.0) : "-",
                     triple(position_of(face), size_of(face)), fmt::format("{:.6g}", face.area),
+                    name_in_cad(face),
                     fmt::format("{}", fmt::join(surface_names(list, face.tag), " "))});
   }
-  std::array<size_t, 7> width{};
+  std::array<size_t, 8> width{};
   for (const auto& row : rows)
     for (size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], row[c].size());
   std::vector<std::string> lines;
   for (const auto& row : rows) {
-    std::string line = fmt::format("{:>{}}  {:<{}}  {:>{}}  {:<{}}  {:<{}}  {:>{}}  {}", row[0],
+    std::string line = fmt::format("{:>{}}  {:<{}}  {:>{}}  {:<{}}  {:<{}}  {:>{}}  ", row[0],
                                    width[0], row[1], width[1], row[2], width[2], row[3], width[3],
-                                   row[4], width[4], row[5], width[5], row[6]);
+                                   row[4], width[4], row[5], width[5]);
+    if (named) line += fmt::format("{:<{}}  ", row[6], width[6]);
+    line += row[7];
     line.erase(line.find_last_not_of(' ') + 1);
     lines.push_back(line);
   }
@@ -230,13 +237,14 @@ void write_faces(H5File& file, const FaceList& list, const FaceTriangles& drawn,
                  double metres_per_unit) {
   const auto count = static_cast<Eigen::Index>(list.faces.size());
   std::vector<int32_t> numbers;
-  std::vector<std::string> kinds, names;
+  std::vector<std::string> kinds, named, names;
   std::vector<double> radii, areas;
   RowMatrix direction(count, 3), position(count, 3);
   for (Eigen::Index f = 0; f < count; ++f) {
     const FaceFacts& face = list.faces[f];
     numbers.push_back(face.tag);
     kinds.push_back(kind_text(face.shape));
+    named.push_back(name_in_cad(face));
     names.push_back(fmt::format("{}", fmt::join(surface_names(list, face.tag), " ")));
     radii.push_back(metres_per_unit * face.shape.radius);
     areas.push_back(metres_per_unit * metres_per_unit * face.area);
@@ -246,6 +254,7 @@ void write_faces(H5File& file, const FaceList& list, const FaceTriangles& drawn,
   file.set("/", "name", list.name);
   file.write("number", numbers);
   file.write("kind", kinds);
+  file.write("named", named);
   file.write("radius", radii);
   file.write("direction", direction);
   file.write("place", position);

@@ -31,11 +31,12 @@ Eigen::Vector3d position_of(const FaceFacts& face);
 std::vector<std::string> filter_lines(const FaceFacts& face, double margin);
 
 /// Aligned columns: number, kind, radius, axis or (when oriented, outward) normal, position, area,
-/// surfaces; the header line gives names and units.
+/// name where any face has one, surfaces; the header line gives names and units.
 std::vector<std::string> table_of(const FaceList& list);
 
-/// For --json: name, unit, and faces, one object per face: number, kind, spline, concave, radius,
-/// minor_radius, half_angle_deg, direction, place, centre, area, box, surfaces, toml (its filters).
+/// For --json: name, unit, and faces, one object per face: number, named, kind, spline, concave,
+/// radius, minor_radius, half_angle_deg, direction, place, centre, area, box, surfaces, toml (its
+/// filters).
 JsonMembers json_of(const FaceList& list);
 
 /// Triangles to draw: rows of `nodes`, and the face that each lies on.

@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "core/base/error.hpp"
 
@@ -35,6 +36,24 @@ double largest(const FaceFacts& face, const Distance& distance) {
   for (const auto* points : {&face.edge_points, &face.surface_points})
     for (const Vector3d& x : *points) result = std::max(result, std::abs(distance(x)));
   return result;
+}
+
+/// "BOTTOM" of "Shapes/pan/BOTTOM", which "pan/BOTTOM" is too: names may hold strokes.
+bool is_named(const FaceFacts& face, const std::string& name) {
+  return face.label == name || face.label.ends_with("/" + name);
+}
+
+std::string describe_names(const std::vector<FaceFacts>& faces) {
+  constexpr size_t kListed = 12;
+  std::set<std::string> names;
+  for (const FaceFacts& face : faces)
+    if (const std::string name = name_in_cad(face); !name.empty()) names.insert(name);
+  if (names.empty())
+    return "no face has a name: STEP files alone have them, where the CAD program wrote any";
+  const std::vector<std::string> some(names.begin(),
+                                      std::next(names.begin(), std::min(kListed, names.size())));
+  return fmt::format("its faces have the names {}{}", fmt::join(some, ", "),
+                     names.size() > kListed ? fmt::format(", ... ({})", names.size()) : "");
 }
 
 /// A face and its nearest filter.
@@ -172,6 +191,8 @@ const keys::Keys<PlaneFilter>& plane_keys() {
 
 double distance_from(const FaceFacts& face, const SurfaceFilter& filter, double exact) {
   double distance = 0.0;
+  if (!filter.named.empty() && !is_named(face, filter.named))
+    return std::numeric_limits<double>::infinity();
   if (const auto& c = filter.cylinder)
     distance = largest(
         face, [&](const Vector3d& x) { return (x - c->point).cross(c->axis).norm() - c->radius; });
@@ -199,10 +220,16 @@ Selection select_faces(const std::vector<FaceFacts>& faces, const NamedSurface& 
   Selection selection;
   for (const Candidate& c : found)
     if (c.distance <= (any_exact ? exact : near)) selection.tags.push_back(c.face->tag);
-  if (selection.tags.empty())
-    throw InputError(fmt::format("{}: surface '{}' selects no face; {}the part has {}", where,
-                                 surface.name, describe_nearest(found, scale.unit),
-                                 describe_faces(faces)));
+  if (selection.tags.empty()) {
+    const auto by_name = std::ranges::find_if(
+        surface.filters, [](const SurfaceFilter& filter) { return !filter.named.empty(); });
+    const bool unknown = found.empty() && by_name != surface.filters.end();
+    throw InputError(unknown ? fmt::format("{}: surface '{}': found no face named '{}'; {}", where,
+                                           surface.name, by_name->named, describe_names(faces))
+                             : fmt::format("{}: surface '{}' selects no face; {}the part has {}",
+                                           where, surface.name, describe_nearest(found, scale.unit),
+                                           describe_faces(faces)));
+  }
   for (const Candidate& c : found) {
     if (!is_near(c)) continue;
     auto& lines = any_exact ? selection.remarks : selection.warnings;
@@ -217,8 +244,10 @@ Selection select_faces(const std::vector<FaceFacts>& faces, const NamedSurface& 
 
 const keys::Keys<SurfaceTable>& surface_keys() {
   static const keys::Keys<SurfaceTable> keys(
-      "surface", "faces that are found by their position; all filters that are given must match",
+      "surface",
+      "faces that are found by their position or name; all filters that are given must match",
       [](auto& key, SurfaceTable& surface) {
+        key.text("named", surface.filter.named, "name of the faces in the STEP file");
         key.table("cylinder", surface.filter.cylinder, cylinder_keys());
         key.table("plane", surface.filter.plane, plane_keys());
         key.table("box", surface.filter.box, box_keys(), "faces inside a box along the axes");
@@ -229,8 +258,9 @@ const keys::Keys<SurfaceTable>& surface_keys() {
             .shown_in("length_unit");
         key.check([](const Config& table, SurfaceTable& s) {
           if (s.outside) s.filter.outside.push_back(*s.outside);
-          if (!s.filter.cylinder && !s.filter.plane && !s.filter.box && !s.outside)
-            table.fail("cylinder", "give cylinder, plane, box or outside");
+          if (!s.filter.cylinder && !s.filter.plane && !s.filter.box && !s.outside &&
+              s.filter.named.empty())
+            table.fail("cylinder", "give cylinder, plane, box, outside or named");
         });
       });
   return keys;
@@ -245,6 +275,11 @@ std::vector<NamedSurface> named_surfaces(const Config& config,
     surfaces.push_back({name, {table.filter}, table.tolerance});
   }
   return surfaces;
+}
+
+std::string name_in_cad(const FaceFacts& face) {
+  const std::string name = face.label.substr(face.label.rfind('/') + 1);
+  return name == "NONE" ? "" : name;
 }
 
 double size_of_part(const std::vector<FaceFacts>& faces) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Selection of faces by position, never by number: booleans and imports renumber them (hard case
-// G5).
+// Selection of faces by position or by their names, never by number: booleans and imports renumber
+// them (hard case G5).
 #include <Eigen/Core>
 #include <map>
 #include <optional>
@@ -19,7 +19,8 @@ inline constexpr int kEdgeSamples = 33;
 /// Properties of one face of the geometry, in the part's length unit.
 struct FaceFacts {
   int tag = 0;
-  std::string kind;  // "Plane", "Cylinder", "Torus", ...
+  std::string kind;   // "Plane", "Cylinder", "Torus", ...
+  std::string label;  // in the CAD file: assembly/part/name; or empty
   double area = 0.0;
   double radius = 0.0;                          // of a cylinder, else 0
   SurfaceShape shape;                           // kind, radius and axis as measured
@@ -42,6 +43,7 @@ struct BoxFilter {
 
 /// All filters that are given must match.
 struct SurfaceFilter {
+  std::string named;                       // of the face in the CAD file; or empty
   std::optional<CylinderFilter> cylinder;  // the face lies on this cylinder
   std::optional<PlaneFilter> plane;        // the face lies in this plane
   std::optional<BoxFilter> box;            // the entire face lies inside
@@ -62,6 +64,7 @@ inline constexpr double kExactSelection = 1e-6;
 inline constexpr double kNearSelection = 1e-4;
 
 /// Distance of the face from the filter: the largest of
+///   named      infinite where the face has another name
 ///   cylinder   | distance of x from the axis - radius |, over the points x of edges and surface
 ///   plane      | normal . x - height |
 ///   box        how far an edge extends outside
@@ -85,7 +88,8 @@ struct Selection {
 };
 
 /// The faces that a surface selects. InputError, beginning with `where`, when there are none: it
-/// names the three nearest with their distances, and counts the faces of the part.
+/// names the three nearest with their distances, and counts the faces of the part; or the names
+/// that its faces have.
 Selection select_faces(const std::vector<FaceFacts>& faces, const NamedSurface& surface,
                        const SelectionScale& scale, const std::string& where);
 
@@ -99,6 +103,9 @@ const keys::Keys<SurfaceTable>& surface_keys();
 /// The tables as surfaces; `config`: the file, for messages.
 std::vector<NamedSurface> named_surfaces(const Config& config,
                                          const std::map<std::string, SurfaceTable>& tables);
+
+/// The name of a face in the CAD file, or empty: "NONE" is that of no face.
+std::string name_in_cad(const FaceFacts& face);
 
 /// Diagonal of the box around all edges of the faces.
 double size_of_part(const std::vector<FaceFacts>& faces);

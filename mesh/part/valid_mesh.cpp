@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "core/base/child_process.hpp"
@@ -211,6 +212,38 @@ void pull_straight(GmshSession& session, const ValidityReport& folded, Mesh& mes
                   repair.largest_pull));
 }
 
+// Nodes inside faces and curves slide along them.
+Sliding sliding_of(GmshSession& session, double metres_per_unit) {
+  const std::vector<size_t> tags = session.extract().node_tags;
+  std::map<int32_t, PlaceOnGeometry> places;
+  for (const auto& [tag, place] : session.places_of_nodes()) {
+    const auto at = std::ranges::lower_bound(tags, tag);
+    if (at != tags.end() && *at == tag) places[static_cast<int32_t>(at - tags.begin())] = place;
+  }
+  Sliding sliding;
+  for (const auto& [node, place] : places) sliding.nodes.insert(node);
+  sliding.onto = [&session, metres_per_unit, places](int32_t node,
+                                                     const Eigen::Vector3d& x) mutable {
+    return Eigen::Vector3d(metres_per_unit *
+                           session.nearest_point(x / metres_per_unit, places.at(node)));
+  };
+  return sliding;
+}
+
+// By the local search: with the boundary as it is, then along the geometry.
+ValidityReport unfold(GmshSession& session, double target, double metres_per_unit, Mesh& mesh) {
+  unfold_cells(mesh, target);
+  ValidityReport folded = check_validity(mesh);
+  if (folded.invalid.empty() || folded.invalid.size() > kManyFolds) return folded;
+  const Sliding sliding = sliding_of(session, metres_per_unit);
+  for (const double aim : {kPulledRatio, target}) unfold_cells(mesh, aim, sliding);
+  ValidityReport slid = check_validity(mesh);
+  if (slid.invalid.size() < folded.invalid.size())
+    say(fmt::format("mesh: {} of {} folded cells unfolded along the geometry",
+                    folded.invalid.size() - slid.invalid.size(), folded.invalid.size()));
+  return slid;
+}
+
 // Gmsh's HighOrder on the session's mesh, then the local search; kept if that is better.
 void optimise(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
               double metres_per_unit, Mesh& mesh, ValidityReport& folded, Repair& repair) {
@@ -239,8 +272,7 @@ Repair make_valid_mesh(GmshSession& session, const PartGeometry& part, const Mes
     const ValidityReport before = check_validity(mesh);
     repair.invalid_before = before.invalid.size();
     repair.min_ratio_before = before.min_ratio;
-    unfold_cells(mesh, settings.min_scaled_jacobian);
-    folded = check_validity(mesh);
+    folded = unfold(session, settings.min_scaled_jacobian, metres_per_unit, mesh);
     // HighOrder depends on memory addresses and is not reproducible. Finer cells come first, and
     // squeezed cells without effect stay.
     fewest_folds = std::min(fewest_folds, std::max<size_t>(folded.invalid.size(), 1));
