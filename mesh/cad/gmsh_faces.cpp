@@ -114,28 +114,12 @@ double GmshSession::smallest_radius(int face) {
   return least == all.end() || std::isinf(*least) ? 0.0 : *least;
 }
 
-void GmshSession::remember_names() {
-  gmsh_call("gmsh: names of faces", [&] {
-    synchronize();
-    gmsh::vectorpair faces;
-    gmsh::model::getEntities(faces, 2);
-    for (const auto& [dim, tag] : faces) {
-      NamedFace face;
-      gmsh::model::getEntityName(2, tag, face.label);
-      if (face.label.empty()) continue;
-      gmsh::model::occ::getMass(2, tag, face.area);
-      gmsh::model::occ::getCenterOfMass(2, tag, face.centre.x(), face.centre.y(), face.centre.z());
-      named_.push_back(std::move(face));
-    }
-  });
-}
-
-std::string GmshSession::label_of(const FaceFacts& face) const {
+std::string GmshSession::name_of(const FaceFacts& face) const {
   constexpr double kSame = 1e-6;
   for (const NamedFace& named : named_)
     if (std::abs(named.area - face.area) <= kSame * face.area &&
         (named.centre - face.centre).norm() <= kSame * std::sqrt(face.area))
-      return named.label;
+      return named.name;
   return "";
 }
 
@@ -204,7 +188,7 @@ std::vector<FaceFacts> GmshSession::faces(bool shared) {
       if (up.size() == 1 || solids.empty()) facts.push_back(facts_of(tag));
       if (up.size() == 2 && shared) facts.insert(facts.end(), 2, facts_of(tag));
     }
-    for (FaceFacts& face : facts) face.label = label_of(face);
+    for (FaceFacts& face : facts) face.name = name_of(face);
     return facts;
   });
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/base/matrix.hpp"
+#include "mesh/cad/step_names.hpp"
 #include "mesh/face/select.hpp"
 
 namespace clatter::mesh {
@@ -218,16 +219,9 @@ class GmshSession {
   std::vector<FaceFacts> faces(bool shared);
   RawMesh extract_skin() const;
   std::string reason_of_failure() const;
-  void remember_names();
-  std::string label_of(const FaceFacts& face) const;
+  std::string name_of(const FaceFacts& face) const;
 
-  /// A face with a name as it was read: tags and Gmsh's own names do not survive booleans.
-  struct NamedFace {
-    std::string label;
-    double area;
-    Eigen::Vector3d centre;
-  };
-  std::vector<NamedFace> named_;
+  std::vector<NamedFace> named_;  // as they were read
   bool synchronized_ = false;
   int order_ = 1;
 };

@@ -6,7 +6,6 @@
 
 #include "mesh/cad/gmsh_call.hpp"
 #include "mesh/cad/gmsh_session.hpp"
-#include "mesh/cad/step_names.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -268,15 +267,15 @@ gmsh::vectorpair GmshSession::import_shapes(const std::filesystem::path& path,
   gmsh_call<InputError>(path.string(), [&] {
     const QuietStdout quiet;
     if (iges) wake_iges_units(path);
-    keep_step_names();
     gmsh::option::setString("Geometry.OCCTargetUnit", occ_unit(unit));  // before import (G6)
     // IGES mostly holds separate faces: they are sewn to solids.
     gmsh::option::setNumber("Geometry.OCCSewFaces", iges);
     gmsh::option::setNumber("Geometry.OCCMakeSolids", iges && make_solids);
     occ::importShapes(path.string(), out);
+    if (extension == ".step" || extension == ".stp")
+      named_ = named_faces_of_step(path, occ_unit(unit));
   });
   synchronized_ = false;
-  remember_names();
   return out;
 }
 

@@ -133,7 +133,7 @@ std::string json_of(const FaceList& list, const FaceFacts& face, double margin) 
       "\"radius\": {}, "
       "\"minor_radius\": {}, \"half_angle_deg\": {}, \"direction\": {}, \"place\": {}, "
       "\"centre\": {}, \"area\": {}, \"box\": [{}, {}], \"surfaces\": {}, \"toml\": {}}}",
-      face.tag, json_text(name_in_cad(face)), name_of(shape.kind), shape.is_spline,
+      face.tag, json_text(face.name), name_of(shape.kind), shape.is_spline,
       list.oriented && is_round(shape.kind) ? fmt::format("{}", shape.is_concave) : "null",
       digits(shape.radius), digits(shape.minor_radius), digits(shape.half_angle_deg),
       list_of(shape.direction, 1.0), list_of(position_of(face), size), list_of(face.centre, size),
@@ -178,8 +178,8 @@ std::vector<std::string> filter_lines(const FaceFacts& face, double margin) {
 }
 
 std::vector<std::string> table_of(const FaceList& list) {
-  const bool named = std::ranges::any_of(
-      list.faces, [](const FaceFacts& face) { return !name_in_cad(face).empty(); });
+  const bool named =
+      std::ranges::any_of(list.faces, [](const FaceFacts& face) { return !face.name.empty(); });
   std::vector<std::array<std::string, 8>> rows = {
       {"face", "kind", fmt::format("radius [{}]", list.unit), "axis or normal",
        fmt::format("position [{}]", list.unit), fmt::format("area [{}2]", list.unit),
@@ -189,8 +189,7 @@ std::vector<std::string> table_of(const FaceList& list) {
     rows.push_back({fmt::format("{}", face.tag), kind_text(face.shape), radius_text(face.shape),
                     directed ? triple(face.shape.direction, 1.0) : "-",
                     triple(position_of(face), size_of(face)), fmt::format("{:.6g}", face.area),
-                    name_in_cad(face),
-                    fmt::format("{}", fmt::join(surface_names(list, face.tag), " "))});
+                    face.name, fmt::format("{}", fmt::join(surface_names(list, face.tag), " "))});
   }
   std::array<size_t, 8> width{};
   for (const auto& row : rows)
@@ -244,7 +243,7 @@ void write_faces(H5File& file, const FaceList& list, const FaceTriangles& drawn,
     const FaceFacts& face = list.faces[f];
     numbers.push_back(face.tag);
     kinds.push_back(kind_text(face.shape));
-    named.push_back(name_in_cad(face));
+    named.push_back(face.name);
     names.push_back(fmt::format("{}", fmt::join(surface_names(list, face.tag), " ")));
     radii.push_back(metres_per_unit * face.shape.radius);
     areas.push_back(metres_per_unit * metres_per_unit * face.area);

@@ -38,16 +38,11 @@ double largest(const FaceFacts& face, const Distance& distance) {
   return result;
 }
 
-/// "BOTTOM" of "Shapes/pan/BOTTOM", which "pan/BOTTOM" is too: names may hold strokes.
-bool is_named(const FaceFacts& face, const std::string& name) {
-  return face.label == name || face.label.ends_with("/" + name);
-}
-
 std::string describe_names(const std::vector<FaceFacts>& faces) {
   constexpr size_t kListed = 12;
   std::set<std::string> names;
   for (const FaceFacts& face : faces)
-    if (const std::string name = name_in_cad(face); !name.empty()) names.insert(name);
+    if (!face.name.empty()) names.insert(face.name);
   if (names.empty())
     return "no face has a name: STEP files alone have them, where the CAD program wrote any";
   const std::vector<std::string> some(names.begin(),
@@ -191,7 +186,7 @@ const keys::Keys<PlaneFilter>& plane_keys() {
 
 double distance_from(const FaceFacts& face, const SurfaceFilter& filter, double exact) {
   double distance = 0.0;
-  if (!filter.named.empty() && !is_named(face, filter.named))
+  if (!filter.named.empty() && face.name != filter.named)
     return std::numeric_limits<double>::infinity();
   if (const auto& c = filter.cylinder)
     distance = largest(
@@ -275,11 +270,6 @@ std::vector<NamedSurface> named_surfaces(const Config& config,
     surfaces.push_back({name, {table.filter}, table.tolerance});
   }
   return surfaces;
-}
-
-std::string name_in_cad(const FaceFacts& face) {
-  const std::string name = face.label.substr(face.label.rfind('/') + 1);
-  return name == "NONE" ? "" : name;
 }
 
 double size_of_part(const std::vector<FaceFacts>& faces) {

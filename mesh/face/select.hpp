@@ -19,8 +19,8 @@ inline constexpr int kEdgeSamples = 33;
 /// Properties of one face of the geometry, in the part's length unit.
 struct FaceFacts {
   int tag = 0;
-  std::string kind;   // "Plane", "Cylinder", "Torus", ...
-  std::string label;  // in the CAD file: assembly/part/name; or empty
+  std::string kind;  // "Plane", "Cylinder", "Torus", ...
+  std::string name;  // in the CAD file; or empty
   double area = 0.0;
   double radius = 0.0;                          // of a cylinder, else 0
   SurfaceShape shape;                           // kind, radius and axis as measured
@@ -103,9 +103,6 @@ const keys::Keys<SurfaceTable>& surface_keys();
 /// The tables as surfaces; `config`: the file, for messages.
 std::vector<NamedSurface> named_surfaces(const Config& config,
                                          const std::map<std::string, SurfaceTable>& tables);
-
-/// The name of a face in the CAD file, or empty: "NONE" is that of no face.
-std::string name_in_cad(const FaceFacts& face);
 
 /// Diagonal of the box around all edges of the faces.
 double size_of_part(const std::vector<FaceFacts>& faces);

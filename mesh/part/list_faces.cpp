@@ -22,8 +22,8 @@ void wire(Archive& archive, Self& s) {
 
 template <class Archive, SelfOf<FaceFacts> Self>
 void wire(Archive& archive, Self& s) {
-  auto& [tag, kind, label, area, radius, shape, centre, edge_points, surface_points] = s;
-  archive(tag, kind, label, area, radius, shape, centre, edge_points, surface_points);
+  auto& [tag, kind, name, area, radius, shape, centre, edge_points, surface_points] = s;
+  archive(tag, kind, name, area, radius, shape, centre, edge_points, surface_points);
 }
 
 template <class Archive, SelfOf<FaceList> Self>

@@ -151,6 +151,15 @@ class Cad(Folder):
         self.assertIn('source = "../my tube.step"', text)
         self.assertIn("element_size_mm = 4.0 ", text)  # as clatter-mesh for CAD alone: LongDefaultSize
         self.assertEqual(re.findall(r"^\[surface\.(\w+)\]", text, re.M), ["bore_1", "plane_1", "plane_2"])
+        # The names that a CAD program gave to faces are those of surfaces.
+        step = (self.folder / "my tube.step").read_text().replace("ADVANCED_FACE('", "ADVANCED_FACE('Flange top", 1)
+        (self.folder / "named.step").write_text(step)
+        self.assertIn("a face of this name in the file", self.new("n", "--part", "named.step"))
+        text_of_named = (self.folder / "n/named.mesh.toml").read_text()
+        self.assertIn('\nnamed = "Flange top"\n', text_of_named)
+        self.assertIn("[surface.Flange_top]", text_of_named)
+        done = stages.run_stage("mesh", "n/named.mesh.toml", "-o", "named.mesh.h5", "--element-size-mm", "20", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
         (self.folder / "t/my_tube.mesh.toml").write_text(text.replace("element_size_mm = 4.0", "element_size_mm = 20"))
         self.make("t")
         found = self.certificate("t/my_tube.rom.h5")

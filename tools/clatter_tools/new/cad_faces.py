@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bores and planes among the faces of a CAD file, as `clatter-mesh faces --json` lists them."""
+"""Bores, planes and named faces of a CAD file, as `clatter-mesh faces --json` lists them."""
 import dataclasses
+import json
+import re
 
 import numpy as np
 
-BORES, PLANES = 6, 3     # at most, the largest first: of more the file would tell less
+BORES, PLANES, NAMES = 6, 3, 12   # at most, the largest first: of more the file would tell less
 WHOLE = 0.7              # part of a full cylinder's area: a bore with ports and slots has more, a fillet a quarter
 SAME = 1e-4              # of the part's size: axes and radii that differ by less are one
 
@@ -61,6 +63,24 @@ def bores(faces):
     return sorted(found, key=lambda one: -one[0])
 
 
+def of_names(faces, unit):
+    """A surface for each name that faces have in the CAD file, the largest first."""
+    areas, counts = {}, {}
+    for face in faces:
+        if face.get("named"):
+            areas[face["named"]] = areas.get(face["named"], 0.0) + face["area"]
+            counts[face["named"]] = counts.get(face["named"], 0) + 1
+    surfaces = {}
+    for name in sorted(areas, key=lambda one: -areas[one])[:NAMES]:
+        own = re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_") or "face"
+        if own == "skin" or own in surfaces or re.fullmatch(r"(bore|plane)_\d+", own):
+            own = f"{own}_of_cad_{len(surfaces) + 1}"
+        faces_of = f"{counts[name]} faces" if counts[name] > 1 else "a face"
+        surfaces[own] = Surface(own, f"named = {json.dumps(name, ensure_ascii=False)}", f"{faces_of} of this name in the file, "
+                                f"{areas[name]:.4g} {unit}2")
+    return list(surfaces.values())
+
+
 def named(faces, unit):
     """(the surfaces to name, how many bores there are in all)."""
     pad = SAME * size_of(faces)
@@ -70,8 +90,8 @@ def named(faces, unit):
                                      f"box = {{ min = {vector(box[0] - pad)}, max = {vector(box[1] + pad)} }}",
                         f"radius {face['radius']:g} {unit}, length {long:.4g} {unit}")
                 for k, (_, face, box, long) in enumerate(holes[:BORES], 1)]
-    planes = sorted((face for face in faces if face["kind"] == "plane"), key=lambda face: -face["area"])[:PLANES]
+    planes = sorted((face for face in faces if face["kind"] == "plane" and not face.get("named")), key=lambda face: -face["area"])[:PLANES]
     surfaces += [Surface(f"plane_{k}", face["toml"], f"face {face['number']}, {face['area']:.4g} {unit}2, "
                                                      f"normal {vector(np.round(face['direction'], 4))}")
                  for k, face in enumerate(planes, 1)]
-    return surfaces, len(holes)
+    return surfaces + of_names(faces, unit), len(holes)
