@@ -62,6 +62,23 @@ TEST(Unfold, BoundaryStaysAndFreeNodesAloneMove) {
   EXPECT_EQ(check_validity(mesh).invalid.size(), 1u);
 }
 
+// The same node slides along its edge, which is a curve of the geometry, to where the cell is good.
+TEST(Unfold, NodesOfTheBoundarySlideAlongTheGeometryWhereTheyMay) {
+  Mesh mesh = testing::one_cell();
+  const RowMatrix before = mesh.nodes;
+  mesh.nodes(4, 0) = 0.2;
+  const Sliding sliding{{4}, [](int32_t node, const Eigen::Vector3d& x) {
+                          EXPECT_EQ(node, 4);
+                          return Eigen::Vector3d(x.x(), 0.0, 0.0);
+                        }};
+  EXPECT_EQ(unfold_cells(mesh, 0.1, sliding), 1);
+  EXPECT_TRUE(check_validity(mesh).invalid.empty());
+  EXPECT_NE(mesh.nodes(4, 0), 0.2);
+  EXPECT_EQ(mesh.nodes.row(4).tail<2>().norm(), 0.0);
+  for (int node = 0; node < 10; ++node)
+    EXPECT_TRUE(node == 4 || mesh.nodes.row(node) == before.row(node)) << node;
+}
+
 // The middle of edge 0-1 pushed in by half the edge: with a bow of 1/4 of it left, 1 - 4 x 0.125
 // (the derivative of the edge's map at corner 0) stays positive.
 TEST(Straighten, HalvesTheBowUntilTheCellIsValidAndTellsHowFar) {

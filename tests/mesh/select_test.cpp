@@ -123,8 +123,9 @@ TEST(Select, ATrueFaceKeepsANearOneOutAndTheUsersToleranceTakesBoth) {
 }
 
 TEST(Select, WrongTablesAreRefused) {
-  test::expect_parts(test::refusal_of([&] { surfaces("[surface.s]\n"); }),
-                     {"part.toml:1: surface.s.cylinder: give cylinder, plane, box, outside or named"});
+  test::expect_parts(
+      test::refusal_of([&] { surfaces("[surface.s]\n"); }),
+      {"part.toml:1: surface.s.cylinder: give cylinder, plane, box, outside or named"});
   test::expect_parts(test::refusal_of([&] {
                        surfaces("[surface.s]\nplane = { normal = [0, 0, 0], height = 1 }");
                      }),
