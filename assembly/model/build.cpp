@@ -88,27 +88,37 @@ CoordinateBlocks loss_blocks(SparseMatrix loss, const PartData& part,
   return lost;
 }
 
+template <class Takes>
+std::vector<bool> blocks_where(const mesh::Mesh& mesh, const Takes& takes) {
+  std::vector<bool> blocks;
+  for (const mesh::ShellBlock& block : mesh.shells) blocks.push_back(takes(block));
+  return blocks;
+}
+
+SparseMatrix mass_of_shells(const PartData& part, fe::MassForm form,
+                            const std::vector<bool>& blocks) {
+  return fe::assemble_shells(part.mesh, part.recipe.materials, part.recipe.sections,
+                             shell_ids(part.numbers, part.mesh.nodes.rows()), form, {}, blocks)
+      .M;
+}
+
 /// M a of the sheets of each centrifugal load: shells, and surface masses where all rotate.
 std::map<std::string, Eigen::VectorXd> rotation_of_sheets(const PartData& part,
                                                           const SparseMatrix& surface_mass) {
   std::map<std::string, Eigen::VectorXd> all;
   const mesh::Mesh& mesh = part.mesh;
   if (mesh.shells.empty() && surface_mass.rows() == 0) return all;
-  const fe::ShellIds ids = shell_ids(part.numbers, mesh.nodes.rows());
   Eigen::VectorXd arms = Eigen::VectorXd::Zero(part.numbers.count());
   for (const LoadSpec& load : part.recipe.loads) {
     if (load.kind != LoadSpec::Kind::kCentrifugal) continue;
-    mesh::Mesh rotating = mesh;
-    std::erase_if(rotating.shells, [&](const mesh::ShellBlock& block) {
-      return !load.rotating.empty() && std::ranges::count(load.rotating, block.region) == 0;
+    const std::vector<bool> rotating = blocks_where(mesh, [&](const mesh::ShellBlock& block) {
+      return load.rotating.empty() || std::ranges::count(load.rotating, block.region) > 0;
     });
     for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
       arms.segment<3>(3 * a) = load.axis.arm(mesh.nodes.row(a).transpose());
     SparseMatrix M;
-    if (!rotating.shells.empty())
-      M = fe::assemble_shells(rotating, part.recipe.materials, part.recipe.sections, ids,
-                              fe::MassForm::kNodes)
-              .M;
+    if (std::ranges::count(rotating, true) > 0)
+      M = mass_of_shells(part, fe::MassForm::kNodes, rotating);
     if (load.rotating.empty()) add(M, surface_mass);
     if (M.rows() > 0) all[load.name] = multiply_symmetric(M, arms);
   }
@@ -169,15 +179,12 @@ Eigen::MatrixXd momentum_of(const SparseMatrix& M, const PartData& part) {
 /// A field of accelerations holds at the centres of quad8 cells too, which in M move as their
 /// equilibrium asks: the mass of the nodes' shape functions less that in M.
 SparseMatrix mass_of_fields_beside(const PartData& part) {
-  mesh::Mesh mesh = part.mesh;
-  std::erase_if(mesh.shells,
-                [](const mesh::ShellBlock& block) { return block.type != mesh::FaceType::kQuad8; });
-  if (mesh.shells.empty()) return {};
-  const fe::ShellIds ids = shell_ids(part.numbers, mesh.nodes.rows());
-  const auto mass = [&](fe::MassForm form) {
-    return fe::assemble_shells(mesh, part.recipe.materials, part.recipe.sections, ids, form).M;
-  };
-  return mass(fe::MassForm::kNodes) - mass(part.recipe.mass);
+  const std::vector<bool> quad8 = blocks_where(part.mesh, [](const mesh::ShellBlock& block) {
+    return block.type == mesh::FaceType::kQuad8;
+  });
+  if (std::ranges::count(quad8, true) == 0) return {};
+  return mass_of_shells(part, fe::MassForm::kNodes, quad8) -
+         mass_of_shells(part, part.recipe.mass, quad8);
 }
 
 /// M a of each load with a field of accelerations.

@@ -111,16 +111,20 @@ ShellCell shell_cell(const mesh::Mesh& mesh, const mesh::ShellBlock& block, Eige
 
 NodalMatrices assemble_shells(const mesh::Mesh& mesh, const std::vector<Material>& materials,
                               const std::vector<ShellSection>& sections, const ShellIds& ids,
-                              MassForm form, const std::vector<int32_t>& rigid_of_node) {
+                              MassForm form, const std::vector<int32_t>& rigid_of_node,
+                              const std::vector<bool>& blocks) {
   const std::vector<RowMatrix> directors = shell_directors(mesh.nodes, mesh.shells);
+  const auto takes = [&](size_t b) { return blocks.empty() || blocks[b]; };
   int64_t cells = 0;
-  for (const mesh::ShellBlock& block : mesh.shells) cells += block.nodes.rows();
+  for (size_t b = 0; b < mesh.shells.size(); ++b)
+    if (takes(b)) cells += mesh.shells[b].nodes.rows();
   Progress progress("assemble shells", static_cast<double>(cells), "cells");
   double done = 0.0;
   Entries K, M;
   std::vector<ShellMatrices> chunk(kShellsTogether);
   std::array<char, kShellsTogether> valid{};
   for (size_t b = 0; b < mesh.shells.size(); ++b) {
+    if (!takes(b)) continue;
     const mesh::ShellBlock& block = mesh.shells[b];
     const ShellSection& section = sections[block.region];
     const Material& material = materials[block.region];

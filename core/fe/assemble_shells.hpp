@@ -23,10 +23,12 @@ ShellCell shell_cell(const mesh::Mesh& mesh, const mesh::ShellBlock& block, Eige
 /// M and K of the shells, count x count, lower triangles. InputError names a cell that is none.
 ///
 /// `rigid_of_node` (n_nodes, or empty) is the rigid body that a node's displacements and rotations
-/// follow, or -1: the stiffness of a cell in one body is omitted.
+/// follow, or -1: the stiffness of a cell in one body is omitted. `blocks`: those of mesh.shells to
+/// assemble; empty: all. Directors are those of all shells.
 NodalMatrices assemble_shells(const mesh::Mesh& mesh, const std::vector<Material>& materials,
                               const std::vector<ShellSection>& sections, const ShellIds& ids,
                               MassForm mass = MassForm::kConsistent,
-                              const std::vector<int32_t>& rigid_of_node = {});
+                              const std::vector<int32_t>& rigid_of_node = {},
+                              const std::vector<bool>& blocks = {});
 
 }  // namespace clatter::fe

@@ -114,12 +114,20 @@ double GmshSession::smallest_radius(int face) {
   return least == all.end() || std::isinf(*least) ? 0.0 : *least;
 }
 
+// Bores of radius 20, length 30 and of 30, 20 about one centre have the same area: the inertia
+// tells them apart.
 std::string GmshSession::name_of(const FaceFacts& face) const {
   constexpr double kSame = 1e-6;
-  for (const NamedFace& named : named_)
-    if (std::abs(named.area - face.area) <= kSame * face.area &&
-        (named.centre - face.centre).norm() <= kSame * std::sqrt(face.area))
-      return named.name;
+  const double size = std::sqrt(face.area);
+  for (const NamedFace& named : named_) {
+    if (std::abs(named.area - face.area) > kSame * face.area ||
+        (named.centre - face.centre).norm() > kSame * size)
+      continue;
+    std::vector<double> inertia;
+    gmsh::model::occ::getMatrixOfInertia(2, face.tag, inertia);
+    const double polar = inertia.at(0) + inertia.at(4) + inertia.at(8);
+    if (std::abs(named.polar - polar) <= 10.0 * kSame * polar) return named.name;
+  }
   return "";
 }
 

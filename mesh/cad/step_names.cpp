@@ -73,7 +73,11 @@ std::vector<NamedFace> named_faces_of_step(const std::filesystem::path& path,
       GProp_GProps surface;
       BRepGProp::SurfaceProperties(face.Current(), surface);
       const gp_Pnt centre = surface.CentreOfMass();
-      found.push_back({name->second, surface.Mass(), {centre.X(), centre.Y(), centre.Z()}});
+      const gp_Mat inertia = surface.MatrixOfInertia();  // about the centre
+      found.push_back({name->second,
+                       surface.Mass(),
+                       {centre.X(), centre.Y(), centre.Z()},
+                       inertia.Value(1, 1) + inertia.Value(2, 2) + inertia.Value(3, 3)});
     }
   } catch (const Standard_Failure& failure) {
     throw NumericsError(path.string() + ": names of its faces: OpenCASCADE: " +

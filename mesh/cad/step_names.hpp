@@ -12,6 +12,7 @@ struct NamedFace {
   std::string name;
   double area = 0.0;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // of the area
+  double polar = 0.0;                                // trace of the area's inertia about it
 };
 
 /// The faces of a STEP file whose ADVANCED_FACE has a name, at all places where an assembly has

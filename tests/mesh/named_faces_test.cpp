@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <regex>
+#include <map>
 #include <sstream>
 
 #include "mesh/face/face_list.hpp"
@@ -19,6 +19,20 @@ namespace {
 using testing::Folder;
 using testing::mesh_toml;
 
+/// A copy of boxes.step whose faces have the names side 1, side 2, ...; their number.
+int name_faces(const Folder& folder) {
+  std::ifstream file(folder / "boxes.step");
+  std::stringstream stream;
+  stream << file.rdbuf();
+  std::string text = stream.str();
+  const std::string unnamed = "ADVANCED_FACE(''";
+  int number = 0;
+  for (size_t at = text.find(unnamed); at != std::string::npos; at = text.find(unnamed, at + 1))
+    text.replace(at, unnamed.size(), fmt::format("ADVANCED_FACE('side {}'", ++number));
+  std::ofstream(folder / "named.step") << text;
+  return number;
+}
+
 /// A box of 10 x 20 x 30 mm whose faces have the names side 1 to 6, of x0 x1 y0 y1 z0 z1 in the
 /// order of OpenCASCADE, and beside x1 one of 10 x 20 x 10 mm, 7 to 12.
 std::string write_boxes(const Folder& folder) {
@@ -28,18 +42,8 @@ std::string write_boxes(const Folder& folder) {
     session.box({10, 0, 0}, {20, 20, 10});
     session.write_cad(folder / "boxes.step", "mm");
   }
-  std::ifstream file(folder / "boxes.step");
-  std::stringstream stream;
-  stream << file.rdbuf();
-  std::string text = stream.str();
-  const std::string unnamed = "ADVANCED_FACE(''";
-  int number = 0;
-  for (size_t at = text.find(unnamed); at != std::string::npos; at = text.find(unnamed, at + 1))
-    text.replace(at, unnamed.size(), fmt::format("ADVANCED_FACE('side {}'", ++number));
-  EXPECT_EQ(number, 12);
-  const std::string path = (folder / "named.step").string();
-  std::ofstream(path) << text;
-  return path;
+  EXPECT_EQ(name_faces(folder), 12);
+  return (folder / "named.step").string();
 }
 
 double area(const Mesh& mesh, const std::string& surface) {
@@ -86,6 +90,28 @@ TEST(NamedFaces, MakeASheetAndPositionsChooseAmongThem) {
                        sheet("named = 'side 6', plane = { normal = [0, 0, 1], height = 10 }");
                      }),
                      {"selects no face", "nearest: face 6"});
+}
+
+// The outside of a ring and of a shaft in it: 1 200 pi mm2 and one centre.
+TEST(NamedFaces, OfEqualAreaAndCentreAreToldApart) {
+  const Folder folder;
+  {
+    GmshSession session("rings");
+    const Solid wide = session.cylinder({0, 0, -10}, {0, 0, 20}, 30);
+    const Solids ring = session.cut({wide}, {session.cylinder({0, 0, -11}, {0, 0, 22}, 25)});
+    ASSERT_EQ(ring.size(), 1u);
+    session.cylinder({0, 0, -15}, {0, 0, 30}, 20);
+    session.write_cad(folder / "boxes.step", "mm");
+  }
+  const int number = name_faces(folder);
+  GmshSession session("read");
+  session.import_cad(folder / "named.step", "mm");
+  std::map<std::string, double> radii;
+  for (const FaceFacts& face : session.boundary_faces()) {
+    EXPECT_FALSE(face.name.empty());
+    EXPECT_TRUE(radii.emplace(face.name, face.radius).second) << face.name << " twice";
+  }
+  EXPECT_EQ(radii.size(), static_cast<size_t>(number));
 }
 
 TEST(NamedFaces, ANameThatNoFaceHasIsRefusedWithThoseThatThereAre) {
