@@ -197,6 +197,9 @@ class Child {
     end_.kind = WIFSIGNALED(status) ? ChildEnd::Kind::kCrashed : ChildEnd::Kind::kNoResult;
     end_.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     end_.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+    // A library that lets nobody catch its failed allocation: std::terminate prints this.
+    if (end_.signal == SIGABRT && end_.chatter.find("std::bad_alloc") != std::string::npos)
+      end_.kind = ChildEnd::Kind::kMemoryLimit;
     return std::move(end_);
   }
 

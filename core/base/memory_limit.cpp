@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <malloc.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,7 +25,11 @@ void set_memory_limit_gib(double gib) { chosen_gib = gib; }
 
 double memory_limit_gib() {
   if (chosen_gib > 0.0) return chosen_gib;
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * page_bytes() / kBytesPerGib;
+  double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * page_bytes();
+  rlimit space{};
+  if (::getrlimit(RLIMIT_AS, &space) == 0)
+    bytes = std::min(bytes, static_cast<double>(space.rlim_cur));
+  return bytes / kBytesPerGib;
 }
 
 double memory_in_use_gib() {

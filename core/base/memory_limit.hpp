@@ -11,7 +11,7 @@ namespace clatter {
 
 inline constexpr double kBytesPerGib = 1024.0 * 1024.0 * 1024.0;
 
-/// Sets the limit of this process [GiB]; 0 means the machine's memory.
+/// Sets the limit of this process [GiB]; 0 means the machine's memory, or `ulimit -v` if less.
 void set_memory_limit_gib(double gib);
 double memory_limit_gib();
 

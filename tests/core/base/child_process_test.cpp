@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <new>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -48,6 +49,8 @@ std::string fall() {
 void throw_text() { throw std::string("lost"); }
 // Like a library function that must not throw.
 void callback() noexcept { throw_text(); }
+void throw_bad_alloc() { throw std::bad_alloc(); }
+void allocate_in_vain() noexcept { throw_bad_alloc(); }
 
 TEST(HardN17_ChildProcess, ReturnsItsResultBitwise) {
   std::string large(10'000'000, '\0');
@@ -152,6 +155,8 @@ TEST(HardN17_ChildProcess, AChildThatExhaustsMemoryIsStoppedAtTheLimit) {
             limits);
   EXPECT_EQ(at_once.kind, Kind::kMemoryLimit);
 #endif
+  const ChildEnd uncaught = child([]() -> std::string { return allocate_in_vain(), "never"; });
+  EXPECT_EQ(uncaught.kind, Kind::kMemoryLimit);
 }
 
 TEST(HardN17_ChildProcess, LibrariesThatPrintDoNotReachOurStdoutAndItsLinesDo) {
