@@ -3,7 +3,6 @@
 #include "assembly/assemble.hpp"
 #include "core/base/blas_kernel.hpp"
 #include "core/base/command_line.hpp"
-#include "core/base/large_pages.hpp"
 #include "core/base/log.hpp"
 #include "core/base/write_artefact.hpp"
 #include "core/keys/describe.hpp"
@@ -58,7 +57,6 @@ void assemble_part(const Arguments& a, const clatter::CommonOptions& common) {
 
 int main(int argc, char** argv) {
   clatter::ensure_fast_blas(argv);
-  clatter::keep_freed_memory();
   clatter::CommandLine line("clatter-assembly",
                             "Assembles a part's mass and stiffness matrices, adds couplings, "
                             "supports and contact patches, and builds unit load cases.",

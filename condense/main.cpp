@@ -7,13 +7,11 @@
 #include "condense/predict_command.hpp"
 #include "core/base/blas_kernel.hpp"
 #include "core/base/command_line.hpp"
-#include "core/base/large_pages.hpp"
 #include "core/keys/describe.hpp"
 
 int main(int argc, char** argv) {
   using namespace clatter;
   ensure_fast_blas(argv);
-  keep_freed_memory();
   CommandLine program(
       "clatter-condense",
       "Reduces an assembled part by Craig-Bampton, Craig-Chang or Guyan and certifies the result.",

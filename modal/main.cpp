@@ -3,7 +3,6 @@
 // with the full one; static solution of load cases.
 #include "core/base/blas_kernel.hpp"
 #include "core/base/command_line.hpp"
-#include "core/base/large_pages.hpp"
 #include "core/keys/describe.hpp"
 #include "core/modes/analysis.hpp"
 #include "modal/compare_command.hpp"
@@ -15,7 +14,6 @@
 int main(int argc, char** argv) {
   using namespace clatter;
   ensure_fast_blas(argv);
-  keep_freed_memory();
   CommandLine program(
       "clatter-modal", "Modes of an assembled or reduced part, with a proof that none is missing.",
       "samples: clatter-modal block.fe.h5 --fmax-hz 2000 -o block.modes.h5\n"

@@ -2,12 +2,10 @@
 // clatter-condense-mpi: clatter-condense by several processes, for parts that outgrow one.
 #include "condense/ranks/shared_condense.hpp"
 #include "core/base/blas_kernel.hpp"
-#include "core/base/large_pages.hpp"
 
 int main(int argc, char** argv) {
   using namespace clatter;
   ensure_fast_blas(argv);
-  keep_freed_memory();
   constexpr const char* kProgram = "clatter-condense-mpi";
   return ranks::run_ranks(kProgram, argc, argv, [&](const ranks::Ranks& all) {
     CommandLine program(

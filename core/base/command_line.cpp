@@ -11,6 +11,7 @@
 #include "core/base/artefact.hpp"
 #include "core/base/blas_kernel.hpp"
 #include "core/base/error.hpp"
+#include "core/base/large_pages.hpp"
 #include "core/base/log.hpp"
 #include "core/base/memory_limit.hpp"
 #include "core/base/planned_files.hpp"
@@ -88,6 +89,7 @@ struct CommandLine::Impl {
     set_json(common.json);
     set_thread_count(common.threads);
     set_memory_limit_gib(memory_gib);
+    keep_freed_memory();
     set_blas_threads(thread_count());
     reserve_blas_memory();
     try {

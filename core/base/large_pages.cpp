@@ -14,8 +14,14 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "core/base/memory_limit.hpp"
 
 namespace clatter {
+namespace {
+
+constexpr double kLargePages = 0.25;  // of the memory limit
+
+}  // namespace
 
 void prefer_large_pages(void* begin, size_t bytes) {
   constexpr uintptr_t kPage = uintptr_t{1} << 21;
@@ -63,8 +69,16 @@ std::shared_ptr<double[]> spilled_array(size_t count) {
 }
 
 void keep_freed_memory() {
+#ifndef __SANITIZE_ADDRESS__  // has an allocator of its own, which marks every byte
   mallopt(M_MMAP_MAX, 0);  // otherwise large arrays would be unmapped when freed
   mallopt(M_TRIM_THRESHOLD, -1);
+  // The heap grows by this once, without access, so all that is allocated in it has large pages.
+  const auto bytes = static_cast<size_t>(kLargePages * memory_limit_gib() * kBytesPerGib);
+  void* const heap = std::malloc(bytes);
+  if (heap == nullptr) return;
+  prefer_large_pages(heap, bytes);
+  std::free(heap);
+#endif
 }
 
 }  // namespace clatter

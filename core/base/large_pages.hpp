@@ -21,8 +21,8 @@ std::unique_ptr<double[]> large_array(size_t count);
 /// allows. Throws FileError when the disk is too full.
 std::shared_ptr<double[]> spilled_array(size_t count);
 
-/// Keeps freed memory in the process for later arrays instead of returning it to the kernel. Call
-/// it in main of a stage that repeatedly allocates and frees large arrays.
+/// Keeps freed memory in the process for later arrays instead of returning it to the kernel, and
+/// gives the heap large pages. CommandLine::run() calls it, once the memory limit is known.
 void keep_freed_memory();
 
 }  // namespace clatter

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // clatter-modal-mpi: the modes of clatter-modal by several processes, for parts that outgrow one.
 #include "core/base/blas_kernel.hpp"
-#include "core/base/large_pages.hpp"
 #include "modal/ranks/shared_modes.hpp"
 
 int main(int argc, char** argv) {
   using namespace clatter;
   ensure_fast_blas(argv);
-  keep_freed_memory();
   constexpr const char* kProgram = "clatter-modal-mpi";
   return ranks::run_ranks(kProgram, argc, argv, [&](const ranks::Ranks& all) {
     CommandLine program(
