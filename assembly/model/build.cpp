@@ -317,6 +317,7 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
   clock.lap("pattern");
   fe::NodalMatrices nodal = cell_matrices(part, constrained, pattern);
   SparseMatrix loss = loss_of_cells(part, constrained, pattern);
+  if (recipe.prestress) add_prestress(part, pattern, nodal.K);
   if (!recipe.parts.empty()) {
     const PartMatrices parts = part_matrices(part);
     add(nodal.K, parts.K);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "assembly/model/cell_terms.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "core/base/log.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -61,6 +65,26 @@ SparseMatrix loss_of_cells(const PartData& part, const Constrained& constrained,
   change *= 0.5 / kStep;
   change.prune([](auto, auto, double value) { return value != 0.0; });
   return change;
+}
+
+void add_prestress(const PartData& part, const fe::NodePattern& pattern, SparseMatrix& K) {
+  const fe::Prestress& state = *part.recipe.prestress;
+  const SparseMatrix stress =
+      fe::geometric_stiffness(part.mesh, part.recipe.materials, part.recipe.sections, pattern,
+                              shell_ids(part.numbers, part.mesh.nodes.rows()), state);
+  const Eigen::VectorXd u = state.displacement.reshaped<Eigen::RowMajor>();
+  const auto against = [&](const SparseMatrix& A) {
+    Eigen::VectorXd motion = Eigen::VectorXd::Zero(A.rows());
+    motion.head(u.size()) = u;
+    return motion.dot(multiply_symmetric(A, motion).col(0));
+  };
+  const double elastic = against(K);
+  if (elastic > 0.0)
+    say(fmt::format(
+        "prestress: case {} changes the stiffness of the cells against its own displacements by "
+        "{:+.2g} %",
+        state.of_case, 100.0 * against(stress) / elastic));
+  add(K, stress);
 }
 
 fe::ShellIds shell_ids(const DofNumbers& numbers, Eigen::Index n_nodes) {

@@ -16,6 +16,9 @@ fe::NodalMatrices cell_matrices(const PartData& part, const Constrained& constra
 SparseMatrix loss_of_cells(const PartData& part, const Constrained& constrained,
                            const fe::NodePattern& pattern);
 
+/// Adds the geometric stiffness of [prestress] to K, on all ids, and says how much it is.
+void add_prestress(const PartData& part, const fe::NodePattern& pattern, SparseMatrix& K);
+
 fe::ShellIds shell_ids(const DofNumbers& numbers, Eigen::Index n_nodes);
 
 /// `to` += `more`, which may have more rows and columns, as all ids, or none.

@@ -17,6 +17,7 @@
 #include "core/fe/axes.hpp"
 #include "core/fe/fe_gasket.hpp"
 #include "core/fe/material.hpp"
+#include "core/fe/prestress.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/recipe/recipe.hpp"
 #include "core/rom/reduced_model.hpp"
@@ -212,6 +213,7 @@ struct Recipe {
   std::vector<fe::ShellSection> sections;  // likewise; of those with shells
   fe::MassForm mass = fe::MassForm::kConsistent;
   recipe::Damping damping;
+  std::optional<fe::Prestress> prestress;
   std::vector<PointSpec> points;
   std::vector<SupportSpec> supports;
   std::vector<CouplingSpec> couplings;

@@ -76,6 +76,17 @@ void Resolver::check_hanging(const recipe::File& file) const {
                                  mesh::kHangingMidSideNodes));
 }
 
+fe::Prestress Resolver::prestress(const recipe::Prestress& prestress, bool with_parts) {
+  if (with_parts)
+    prestress.source.fail("file",
+                          "found it beside a reduced part, which has no cells, expected "
+                          "[prestress] in the fe.toml of the part");
+  files_.push_back(prestress.file);
+  fe::Prestress out = fe::read_prestress(prestress.file, prestress.of_case, names_.mesh.nodes);
+  out.factor = prestress.factor;
+  return out;
+}
+
 namespace {
 
 template <class T>
@@ -115,6 +126,7 @@ Recipe Resolver::resolve(const recipe::File& file, std::vector<PartSpec> parts) 
     out.damping.alpha = parts.front().model.alpha;
     out.damping.beta = parts.front().model.beta;
   }
+  if (file.prestress) out.prestress = prestress(*file.prestress, !parts.empty());
   out.points = each(file.points, &Resolver::point);
   out.supports = each(file.supports, &Resolver::support);
   out.couplings = each(file.couplings, &Resolver::coupling);

@@ -45,6 +45,7 @@ class Resolver {
                    const fe::ShellSection& section) const;
   void check_loads_of_parts(const recipe::File& file) const;
   void check_hanging(const recipe::File& file) const;
+  fe::Prestress prestress(const recipe::Prestress& prestress, bool with_parts);
   PointSpec point(const recipe::Point& point, size_t number);
   SupportSpec support(const recipe::Support& support, size_t number);
   CouplingSpec coupling(const recipe::Coupling& coupling, size_t number);

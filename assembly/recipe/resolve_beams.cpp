@@ -87,12 +87,30 @@ MatrixSpec spec_of(const std::string& name, const std::string& where, bool is_ma
   for (int i = 0; i < values.rows(); ++i) {
     double largest = 0.0;  // of displacements, or of rotations
     for (int k = 0; k < values.rows(); ++k)
-      if (k / 3 % 2 == i / 3 % 2) largest = std::max(largest, values(k, k));
-    if (values(i, i) > kNothing * largest) rows.push_back(i);
+      if (k / 3 % 2 == i / 3 % 2) largest = std::max(largest, std::abs(values(k, k)));
+    if (std::abs(values(i, i)) > kNothing * largest) rows.push_back(i);
   }
   MatrixSpec spec{name, where, is_mass, {}, values(rows, rows)};
   for (const int i : rows) spec.terms.push_back(terms[i]);
   return spec;
+}
+
+/// The force along a beam in the state of [prestress] [N]; 0 without it.
+double tension_of(const recipe::Beam& beam, const fe::BeamElement& element,
+                  const std::optional<fe::Prestress>& state) {
+  if (!state) return 0.0;
+  Eigen::Vector<double, 12> u;
+  for (size_t end = 0; end < 2; ++end) {
+    const auto at = std::ranges::find(state->points, beam.points[end]);
+    if (at == state->points.end())
+      beam.source.fail("points",
+                       fmt::format("found \"{}\", which the results of [prestress] do not "
+                                   "have, expected those of a model with this beam",
+                                   beam.points[end]));
+    u.segment<6>(6 * static_cast<Eigen::Index>(end)) =
+        state->point_motion.row(at - state->points.begin());
+  }
+  return state->factor * fe::beam_tension(element, u);
 }
 
 }  // namespace
@@ -121,7 +139,9 @@ void Resolver::beam(const recipe::Beam& beam, size_t number, Recipe& out) const 
     beam.source.fail("points", "found both ends at one place, expected a length");
   element.axes = axes_of(beam, x / element.length, is_round(element.stations));
   with_context(place, [&] {
-    out.matrices.push_back(spec_of(name, place, false, terms, fe::beam_stiffness(element)));
+    const double tension = tension_of(beam, element, out.prestress);
+    out.matrices.push_back(
+        spec_of(name, place, false, terms, fe::beam_stiffness(element, tension)));
     out.matrices.back().loss_factor = beam.loss_factor;
     const MatrixSpec mass = spec_of(name, place, true, terms, fe::beam_mass(element, out.mass));
     if (!mass.terms.empty()) out.matrices.push_back(mass);

@@ -163,7 +163,11 @@ NodalMatrices assemble(const mesh::Mesh& mesh, const std::vector<Material>& mate
           // From the cell's first node: far from the origin differences of positions would lose
           // digits in each derivative (hard case F2).
           const mesh::CellNodes x = mesh::cell_nodes(mesh, block, first + c);
-          compute_element(block.type, x.rowwise() - x.row(0), material, cell);
+          const mesh::CellNodes near = x.rowwise() - x.row(0);
+          if (material.axes)
+            compute_element(block.type, near, material.seen_from(x.row(0)), cell);
+          else
+            compute_element(block.type, near, material, cell);
           require_positive(mesh, block, first + c, cell.min_jacobian);
           if (form == MassForm::kHrz) lump_hrz(cell.mass);
           if (in_one_body(rigid_of_node, block, first + c)) cell.stiffness.setZero();

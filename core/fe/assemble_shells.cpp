@@ -16,8 +16,6 @@ namespace {
 
 constexpr Eigen::Index kShellsTogether = 512;  // cells whose matrices are held
 
-using Entries = std::vector<Eigen::Triplet<double, int32_t>>;
-
 /// The rows of x y z rx ry rz of each node of a cell.
 std::vector<int32_t> shell_rows(const mesh::ShellBlock& block, Eigen::Index cell,
                                 const ShellIds& ids) {
@@ -27,13 +25,6 @@ std::vector<int32_t> shell_rows(const mesh::ShellBlock& block, Eigen::Index cell
     for (int d = 0; d < 3; ++d) rows.push_back(ids.rotation_of[node] + d);
   }
   return rows;
-}
-
-void add_lower(const ShellMatrix& values, const std::vector<int32_t>& rows, Entries& entries) {
-  for (Eigen::Index j = 0; j < values.cols(); ++j)
-    for (Eigen::Index i = 0; i < values.rows(); ++i)
-      if (rows[i] >= rows[j] && values(i, j) != 0.0)
-        entries.emplace_back(rows[i], rows[j], values(i, j));
 }
 
 bool moves_rigidly(const std::vector<int32_t>& rigid_of_node, const mesh::ShellBlock& block,
@@ -72,7 +63,7 @@ void check_directions(const mesh::Mesh& mesh, const mesh::ShellBlock& block, Eig
                "system of its [[shell]]");
 }
 
-SparseMatrix from_entries(int64_t size, const Entries& entries) {
+SparseMatrix from_entries(int64_t size, const ShellEntries& entries) {
   SparseMatrix matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
@@ -109,6 +100,15 @@ ShellCell shell_cell(const mesh::Mesh& mesh, const mesh::ShellBlock& block, Eige
   return out;
 }
 
+void add_lower(const ShellMatrix& values, const mesh::ShellBlock& block, Eigen::Index cell,
+               const ShellIds& ids, ShellEntries& entries) {
+  const std::vector<int32_t> rows = shell_rows(block, cell, ids);
+  for (Eigen::Index j = 0; j < values.cols(); ++j)
+    for (Eigen::Index i = 0; i < values.rows(); ++i)
+      if (rows[i] >= rows[j] && values(i, j) != 0.0)
+        entries.emplace_back(rows[i], rows[j], values(i, j));
+}
+
 NodalMatrices assemble_shells(const mesh::Mesh& mesh, const std::vector<Material>& materials,
                               const std::vector<ShellSection>& sections, const ShellIds& ids,
                               MassForm form, const std::vector<int32_t>& rigid_of_node,
@@ -120,7 +120,7 @@ NodalMatrices assemble_shells(const mesh::Mesh& mesh, const std::vector<Material
     if (takes(b)) cells += mesh.shells[b].nodes.rows();
   Progress progress("assemble shells", static_cast<double>(cells), "cells");
   double done = 0.0;
-  Entries K, M;
+  ShellEntries K, M;
   std::vector<ShellMatrices> chunk(kShellsTogether);
   std::array<char, kShellsTogether> valid{};
   for (size_t b = 0; b < mesh.shells.size(); ++b) {
@@ -141,9 +141,9 @@ NodalMatrices assemble_shells(const mesh::Mesh& mesh, const std::vector<Material
       });
       for (Eigen::Index c = 0; c < count; ++c) {
         if (valid[c] == 0) refuse_shape(mesh, block, first + c);
-        const std::vector<int32_t> rows = shell_rows(block, first + c, ids);
-        if (!moves_rigidly(rigid_of_node, block, first + c)) add_lower(chunk[c].stiffness, rows, K);
-        add_lower(chunk[c].mass, rows, M);
+        if (!moves_rigidly(rigid_of_node, block, first + c))
+          add_lower(chunk[c].stiffness, block, first + c, ids, K);
+        add_lower(chunk[c].mass, block, first + c, ids, M);
       }
       progress.update(done += static_cast<double>(count));
     }

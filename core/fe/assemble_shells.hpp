@@ -20,6 +20,12 @@ ShellCell shell_cell(const mesh::Mesh& mesh, const mesh::ShellBlock& block, Eige
                      const RowMatrix& directors, const ShellSection& section,
                      const Material& material);
 
+using ShellEntries = std::vector<Eigen::Triplet<double, int32_t>>;
+
+/// Appends the lower triangle of the matrix of a cell (6n x 6n) at its rows.
+void add_lower(const ShellMatrix& values, const mesh::ShellBlock& block, Eigen::Index cell,
+               const ShellIds& ids, ShellEntries& entries);
+
 /// M and K of the shells, count x count, lower triangles. InputError names a cell that is none.
 ///
 /// `rigid_of_node` (n_nodes, or empty) is the rigid body that a node's displacements and rotations

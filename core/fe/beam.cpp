@@ -75,10 +75,19 @@ class Theory {
         dense::solve_symmetric(F(resisted_, resisted_), Eigen::MatrixXd::Identity(n, n));
   }
 
-  BeamMatrix stiffness() const {
-    Eigen::Matrix<double, 6, 12> motion;  // of end b beside that of the rigid beam on end a
-    motion << -arm(L_).transpose(), Matrix6::Identity();
-    return motion.transpose() * S_ * motion;
+  BeamMatrix stiffness() const { return motion().transpose() * S_ * motion(); }
+
+  /// Forces at end b by the motions of both.
+  Shape forces() const { return S_ * motion(); }
+
+  /// int v'^T v' + w'^T w' dx.
+  BeamMatrix slopes() const {
+    BeamMatrix G = BeamMatrix::Zero();
+    integrate(L_, [&](double x, double weight, const BeamSection& s) {
+      const auto along_y = slope(x, 1, s), along_z = slope(x, 2, s);
+      G += weight * (along_y.transpose() * along_y + along_z.transpose() * along_z);
+    });
+    return G;
   }
 
   BeamMatrix consistent_mass() const {
@@ -103,6 +112,28 @@ class Theory {
   }
 
  private:
+  /// Of end b beside that of the rigid beam on end a.
+  Shape motion() const {
+    Shape out;
+    out << -arm(L_).transpose(), Matrix6::Identity();
+    return out;
+  }
+
+  /// The derivative of the deflection along y (1) or z (2): the rotation and the shear strain; of
+  /// what the beam does not resist that of a string.
+  Eigen::Matrix<double, 1, 12> slope(double x, int d, const BeamSection& s) const {
+    Eigen::Matrix<double, 1, 12> out = Eigen::Matrix<double, 1, 12>::Zero();
+    if (std::ranges::count(resisted_, d) == 0) {
+      out(d) = -1.0 / L_;
+      out(d + 6) = 1.0 / L_;
+      return out;
+    }
+    const Shape at = arm(L_ - x) * forces(), N = shape(x);
+    out = compliance(s)(d, d) * at.row(d);
+    d == 1 ? out += N.row(5) : out -= N.row(4);
+    return out;
+  }
+
   /// Calls body(x, weight, section) at the points of a rule on [0, end].
   template <class Body>
   void integrate(double end, const Body& body) const {
@@ -197,9 +228,17 @@ BeamMatrix form(const BeamMatrix& A, const BeamMatrix& T) {
 
 }  // namespace
 
-BeamMatrix beam_stiffness(const BeamElement& beam) {
-  const BeamMatrix K = Theory(beam).stiffness();
+BeamMatrix beam_stiffness(const BeamElement& beam, double tension) {
+  const Theory theory(beam);
+  BeamMatrix K = theory.stiffness();
+  if (tension != 0.0) K += tension * theory.slopes();
   return form(K, release(beam, K) * at_nodes(beam));
+}
+
+double beam_tension(const BeamElement& beam, const Eigen::Vector<double, 12>& u) {
+  const Theory theory(beam);
+  const BeamMatrix ends = release(beam, theory.stiffness()) * at_nodes(beam);
+  return (theory.forces() * ends * u)(0);
 }
 
 BeamMatrix beam_mass(const BeamElement& beam, MassForm form_of_mass) {

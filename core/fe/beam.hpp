@@ -47,7 +47,12 @@ using BeamMatrix = Eigen::Matrix<double, 12, 12>;
 /// @return [N/m, N, N m]. InputError where the released DoFs leave a motion without stiffness.
 /// Source: W. McGuire, R. H. Gallagher, R. D. Ziemian, "Matrix Structural Analysis", 2nd ed.,
 /// chapters 4 and 13.
-BeamMatrix beam_stiffness(const BeamElement& beam);
+/// @param tension by which it is stiffer across: int N (v'^2 + w'^2) dx / 2 is added to its energy,
+/// with the deflections of the same theory [N].
+BeamMatrix beam_stiffness(const BeamElement& beam, double tension = 0.0);
+
+/// The force along the beam when its nodes move by u: x y z rx ry rz of a, then of b [N].
+double beam_tension(const BeamElement& beam, const Eigen::Vector<double, 12>& u);
 
 /// Consistent: int N^T m N dx with the deflections N(x) of the same theory, and the rotary inertia
 /// of the section; or the translations of the mass alone, shared by both ends as a lever shares it

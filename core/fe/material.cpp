@@ -74,6 +74,12 @@ Material Material::scaled(double factor) const {
   return out;
 }
 
+Material Material::seen_from(const Eigen::Vector3d& origin) const {
+  Material out = *this;
+  if (out.axes) out.axes->origin -= origin;
+  return out;
+}
+
 Elasticity Material::elasticity_at(const Eigen::Vector3d& x) const {
   Elasticity C;
   if (is_isotropic()) {

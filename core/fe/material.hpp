@@ -51,6 +51,8 @@ struct Material {
   bool is_isotropic() const { return !elasticity; }
   /// All moduli times `factor`.
   Material scaled(double factor) const;
+  /// The same where positions are counted from `origin` [m].
+  Material seen_from(const Eigen::Vector3d& origin) const;
 
   /// Elasticity and thermal strain per kelvin in the global frame at position `x` [m].
   Elasticity elasticity_at(const Eigen::Vector3d& x) const;

@@ -8,7 +8,6 @@
 
 #include "core/base/error.hpp"
 #include "core/base/threads.hpp"
-#include "core/fe/cell_points.hpp"
 #include "core/fe/cell_strain.hpp"
 #include "core/fe/element.hpp"
 
@@ -42,7 +41,8 @@ RowMatrix corner_stress(const RowMatrix& nodes, const CellBlock& block, const Ma
         if (rise.size() > 0) rise(a) = dT(node);
       }
       Eigen::Map<StressRows>(out.row(c).data(), corners, 6).noalias() =
-          smoothing * point_stress(block.type, x, material, moved, rise);
+          smoothing *
+          point_stress(block.type, stress_points(block.type), x, material, moved, rise);
     }
   });
   return out;
@@ -87,9 +87,9 @@ double von_mises(const Voigt& s) {
   return std::sqrt(0.5 * apart.squaredNorm() + 3.0 * s.tail<3>().squaredNorm());
 }
 
-StressRows point_stress(CellType type, const CellNodes& x, const Material& material,
-                        const Eigen::VectorXd& u, const Eigen::VectorXd& dT) {
-  const CellPoints& points = stress_points(type);
+StressRows point_stress(CellType type, const CellPoints& points, const CellNodes& x,
+                        const Material& material, const Eigen::VectorXd& u,
+                        const Eigen::VectorXd& dT) {
   const CellModes modes(x, has_incompatible_modes(type, material.integration));
   const Eigen::VectorXd all = with_inner_modes(type, x, material, u, dT);
   StressRows out(static_cast<Eigen::Index>(points.size()), 6);

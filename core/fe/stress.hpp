@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/fe/cell_points.hpp"
 #include "core/fe/fe_cells.hpp"
 #include "core/mesh/validity.hpp"
 
@@ -28,11 +29,12 @@ struct RegionStress {
 /// sqrt(((s_xx - s_yy)^2 + (s_yy - s_zz)^2 + (s_zz - s_xx)^2) / 2 + 3 (s_xy^2 + s_yz^2 + s_zx^2)).
 double von_mises(const Voigt& stress);
 
-/// Stresses at the stress_points of one cell: nodes `x` (n x 3 [m]), displacements `u` (3n) [m],
-/// temperature rise `dT` (n) [K] or empty. For a hex8 the strain of its incompatible modes is
-/// included. InputError for an inverted cell.
-StressRows point_stress(mesh::CellType type, const mesh::CellNodes& x, const Material& material,
-                        const Eigen::VectorXd& u, const Eigen::VectorXd& dT);
+/// Stresses at points of one cell: nodes `x` (n x 3 [m]), displacements `u` (3n) [m], temperature
+/// rise `dT` (n) [K] or empty. For a hex8 the strain of its incompatible modes is included.
+/// InputError for an inverted cell.
+StressRows point_stress(mesh::CellType type, const CellPoints& points, const mesh::CellNodes& x,
+                        const Material& material, const Eigen::VectorXd& u,
+                        const Eigen::VectorXd& dT);
 
 /// Nodal stresses, one entry per region with solids. `nodes` n x 3 [m], `u` 3 n, `dT` n or empty.
 std::vector<RegionStress> nodal_stress(const RowMatrix& nodes, const FeCells& cells,

@@ -59,6 +59,24 @@ const Keys<Damping>& damping_keys() {
   return keys;
 }
 
+const Keys<Prestress>& prestress_keys() {
+  static const Keys<Prestress> keys(
+      "prestress",
+      "a case of static results whose stress makes the part stiffer where it pulls and softer "
+      "where "
+      "it presses, across its direction",
+      [](auto& key, Prestress& prestress) {
+        key.source(prestress.source);
+        key.path("file", prestress.file,
+                 "static results (.static.h5) of the same mesh, by clatter-modal statics")
+            .required();
+        key.text("case", prestress.of_case,
+                 "case of these results; needed where they have several");
+        key.number("factor", prestress.factor, {}, "of its stress");
+      });
+  return keys;
+}
+
 }  // namespace
 
 const Keys<File>& file_keys() {
@@ -77,6 +95,8 @@ const Keys<File>& file_keys() {
         key.tables("part", file.parts, part_keys());
         key.table("mass", file.mass, mass_keys());
         key.table("damping", file.damping, damping_keys());
+        key.table("prestress", file.prestress, prestress_keys())
+            .excludes("matrices", "they have no cells");
         key.tables("point", file.points, point_keys());
         key.tables("support", file.supports, support_keys());
         key.tables("coupling", file.couplings, coupling_keys());

@@ -90,6 +90,14 @@ struct Damping {
   std::optional<double> ratio, at_hz;  // of critical at a frequency, which gave alpha
 };
 
+/// [prestress]: a case of static results whose stress stiffens the part.
+struct Prestress {
+  Source source{};
+  std::filesystem::path file{};
+  std::string of_case{};
+  double factor = 1.0;
+};
+
 /// A surface or a node set of the mesh, or a point.
 struct Selection {
   std::string surface{}, node_set{}, point{};  // at most one is not empty
@@ -382,6 +390,7 @@ struct File {
   std::vector<Part> parts;
   Mass mass;
   Damping damping;
+  std::optional<Prestress> prestress;
   std::vector<Point> points;
   std::vector<Support> supports;
   std::vector<Coupling> couplings;

@@ -8,6 +8,7 @@
 
 #include "assembly/load/load_case.hpp"
 #include "assembly/load/mass_properties.hpp"
+#include "bar_model.hpp"
 #include "block_mesh.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <numbers>
 
 #include "assembly/load/thermal_load.hpp"
 #include "block_mesh.hpp"
@@ -87,6 +88,50 @@ TEST(Material, CylindricalAxesTurnWithThePlace) {
   EXPECT_NEAR(material.elasticity_at({2, 0, 5})(0, 0), 100.0, 1e-12);
   EXPECT_NEAR(material.elasticity_at({0, 2, 5})(1, 1), 100.0, 1e-12);
   EXPECT_NEAR(material.elasticity_at({0, 2, 5})(0, 0), 1.0, 1e-12);
+}
+
+/// A quarter of a ring that is stiff around its axis, moved by `shift`.
+fe::NodalMatrices wound_ring(const Eigen::Vector3d& shift, fe::Axes::Kind kind) {
+  BlockOptions options;
+  options.type = mesh::CellType::kHex8;
+  const Map map = ring(0.04, 0.06, 0.02);
+  const mesh::Mesh mesh = block_mesh(
+      {8, 2, 2},
+      [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+        return map({0.25 * x(0), x(1), x(2)}) + shift;
+      },
+      options);
+  fe::Material material =
+      parse("E_gpa = [10, 200, 10]\nnu = [0.02, 0.2, 0.3]\nG_gpa = [4, 4, 4]\nrho = 1600");
+  material.axes = fe::Axes{kind, shift, Eigen::Matrix3d::Identity()};
+  return fe::assemble(mesh, materials_of(mesh, material), fe::node_pattern(mesh));
+}
+
+// The directions are those at the place of each cell, wherever the part stands.
+TEST(Assembly, APartWithCylindricalDirectionsIsAsStiffAtAnyPlace) {
+  for (const auto kind : {fe::Axes::Kind::kCylindrical, fe::Axes::Kind::kSpherical}) {
+    const SparseMatrix here = wound_ring(Eigen::Vector3d::Zero(), kind).K;
+    const SparseMatrix away = wound_ring({0.7, -0.4, 1.1}, kind).K;
+    EXPECT_LE((here - away).norm(), 1e-9 * here.norm());
+  }
+}
+
+// u_r = c r stretches around by c and along the radius by c: hardly anything but the hoops resists.
+TEST(Assembly, HoopsResistTheGrowthOfARing) {
+  BlockOptions options;
+  options.type = mesh::CellType::kHex20;
+  options.curved = options.wrap_x = true;
+  const mesh::Mesh mesh = block_mesh({16, 1, 1}, ring(0.04, 0.06, 0.02), options);
+  fe::Material material =
+      parse("E_gpa = [1, 200, 1]\nnu = [0.0, 0.0, 0.0]\nG_gpa = [1, 1, 1]\nrho = 1600");
+  material.axes = fe::Axes{fe::Axes::Kind::kCylindrical, {}, Eigen::Matrix3d::Identity()};
+  const SparseMatrix K =
+      fe::assemble(mesh, materials_of(mesh, material), fe::node_pattern(mesh)).K;
+  RowMatrix u = mesh.nodes;
+  u.col(2).setZero();
+  const Eigen::VectorXd motion = u.reshaped<Eigen::RowMajor>();
+  const double volume = std::numbers::pi * (0.06 * 0.06 - 0.04 * 0.04) * 0.02;
+  EXPECT_NEAR(motion.dot(multiply_symmetric(K, motion).col(0)) / (201e9 * volume), 1.0, 1e-3);
 }
 
 TEST(Assembly, AHeatedFreeBrickGrowsWithoutStress) {

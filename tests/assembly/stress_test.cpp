@@ -237,7 +237,8 @@ TEST(StressOfACell, IsRefusedWhenItIsInverted) {
   CellNodes x = reference(CellType::kHex8);
   x.row(0).swap(x.row(6));
   test::expect_parts(test::refusal_of([&] {
-                       fe::point_stress(CellType::kHex8, x, kSteel, Eigen::VectorXd::Zero(24), {});
+                       fe::point_stress(CellType::kHex8, fe::stress_points(CellType::kHex8), x,
+                                        kSteel, Eigen::VectorXd::Zero(24), {});
                      }),
                      {"stress at (", "m: found det J = -", "expected > 0 (inverted cell)"});
 }

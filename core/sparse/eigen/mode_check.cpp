@@ -113,7 +113,13 @@ void insert_rigid(const MatrixPencil& pencil, const Eigen::MatrixXd& rigid, bool
   for (Index j = 0; j < found; ++j) {
     const double uncertain = uncertain_of[j];
     const double value = std::abs(modes.values[j]);
-    if (value <= std::max(zero * uncertain, unresolved))
+    const bool is_zero = value <= std::max(zero * uncertain, unresolved);
+    if (!is_zero && modes.values[j] < 0.0)
+      throw NumericsError(fmt::format(
+          "modes: found lambda = {:.6g} rad2/s2, expected none below 0: a motion that grows, since "
+          "the part is stressed beyond its buckling load or has a negative stiffness",
+          modes.values[j]));
+    if (is_zero)
       ++modes.rigid;
     else
       modes.rounding[known + j] = 0.5 * uncertain / value;
