@@ -3,9 +3,26 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace clatter::recover {
+
+namespace {
+
+/// Of the displacements, and of a set that only turns of the rotations.
+std::string peaks_of(const SensorResult& result) {
+  const std::vector<int>& turns = result.sensor->is_rotation;
+  const bool moves = std::ranges::count(turns, 0) > 0;
+  double peak = 0.0;
+  for (Eigen::Index c = 0; c < result.acceleration.cols(); ++c)
+    if ((turns[static_cast<size_t>(c)] == 0) == moves)
+      peak = std::max(peak, result.acceleration.col(c).cwiseAbs().maxCoeff());
+  return fmt::format("sensor {:<17} peak acceleration {:.4g} {}\n", result.sensor->name, peak,
+                     moves ? "m/s2" : "rad/s2");
+}
+
+}  // namespace
 
 bool has_sound(const Summary& summary) {
   return !summary.sounds.empty() && summary.sounds.front().power.size() > 0;
@@ -99,10 +116,7 @@ std::string summary_text(const Summary& summary) {
   if (has_sound(summary)) text += sound_summary(summary.sounds.front(), analysis.piece, ref);
   if (analysis.piece.has_energy()) text += energy_text(analysis);
   text += means_text(summary);
-  for (const SensorResult& result : analysis.sensors)
-    text += fmt::format(
-        "sensor {:<17} peak acceleration {:.4g} m/s2\n", result.sensor->name,
-        result.acceleration.size() > 0 ? result.acceleration.cwiseAbs().maxCoeff() : 0.0);
+  for (const SensorResult& result : analysis.sensors) text += peaks_of(result);
   for (const auto& [name, value] : certificate_numbers(summary.certificate))
     text += fmt::format("{} = {:.4g}\n", name, value);
   text += fmt::format("{} frames of the skin, {} complex lines", summary.frames.size(),

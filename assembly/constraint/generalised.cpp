@@ -47,7 +47,12 @@ HeldById aligned_supports(const std::vector<HeldGroup>& supports, const DofNumbe
   HeldById by_id;
   for (const HeldGroup& group : supports)
     for (const HeldDof& held : group.held)
-      if (group.along_axes) by_id[held_functional(held, numbers).dofs[0]] = held;
+      if (group.along_axes) {
+        // The coordinate counts along the basic axis, also where the system's points against it.
+        const Functional along = held_functional(held, numbers);
+        HeldDof& own = by_id[along.dofs[0]] = held;
+        if (along.values[0] < 0.0) own.direction = -own.direction;
+      }
   return by_id;
 }
 

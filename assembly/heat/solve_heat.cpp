@@ -225,6 +225,11 @@ std::map<std::string, fe::HeatField> solve_heat(const PartData& part,
                                                 const fe::NodePattern& pattern) {
   std::map<std::string, fe::HeatField> fields;
   if (part.recipe.heats.empty()) return fields;
+  if (!part.recipe.gaskets.empty())
+    warn(
+        fmt::format("{}: [[heat]]: no heat flows through a [[gasket]]: a [[tie]] of the same faces "
+                    "with a [[heat.contact]] of its conductance carries it",
+                    part.mesh.name));
   SparseMatrix cells = fe::conduction(part.mesh, part.recipe.materials, pattern);
   if (!part.mesh.shells.empty())
     cells += fe::sheet_conduction(part.mesh, part.recipe.materials, part.recipe.sections);

@@ -58,8 +58,15 @@ Eigen::VectorXd resultant_load(const RowMatrix& nodes, const mesh::Surface& surf
 Eigen::VectorXd set_load(Eigen::Index n, const rom::DofSet& set, const Eigen::Vector3d& force,
                          const Eigen::Vector3d& moment, const std::string& where) {
   if (set.kind == "bolt") {
+    constexpr double kAlong = 1e-6;  // of the force
+    const double along = set.direction.row(0) * force;
+    if (std::abs(along) < (1.0 - kAlong) * force.norm() || !moment.isZero(0.0))
+      throw InputError(fmt::format(
+          "{}: found a load beside the axis ({:g}, {:g}, {:g}) of the bolt, expected a force along "
+          "it",
+          where, set.direction(0, 0), set.direction(0, 1), set.direction(0, 2)));
     Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
-    out(set.dofs.at(0)) = set.direction.row(0) * force;
+    out(set.dofs.at(0)) = along;
     return out;
   }
   // Nodes are counted per axis, by the DoFs along it, so that the sum along each axis is right.

@@ -12,11 +12,14 @@
 namespace clatter::assembly {
 namespace {
 
-/// 0 ... 5: which of x y z rx ry rz a coordinate of a reference node is.
-int dof_of(const rom::DofSet& set, size_t k) {
-  Eigen::Index axis = 0;
-  set.direction.row(static_cast<Eigen::Index>(k)).cwiseAbs().maxCoeff(&axis);
-  return static_cast<int>(axis) + (set.is_rotation[k] != 0 ? 3 : 0);
+/// Coordinates of one node by its x y z rx ry rz.
+Eigen::Matrix<double, Eigen::Dynamic, 6> axes_of(const rom::DofSet& set) {
+  const auto n = static_cast<Eigen::Index>(set.dofs.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 6> axes = Eigen::MatrixXd::Zero(n, 6);
+  for (Eigen::Index k = 0; k < n; ++k)
+    axes.row(k).segment<3>(set.is_rotation[static_cast<size_t>(k)] != 0 ? 3 : 0) =
+        set.direction.row(k);
+  return axes;
 }
 
 SparseMatrix six_rows(const SparseMatrix& T, Eigen::Index row) {
@@ -27,10 +30,13 @@ void check_takes(const PointMassSpec& spec, const rom::DofSet& set) {
   if (set.kind == "contact_grid" || set.kind == "mean" || set.kind == "bolt")
     throw InputError(fmt::format("{}: found a set of kind {}, expected a coupling, point or nodes",
                                  spec.where, set.kind));
-  for (size_t k = 0; k < set.dofs.size(); ++k)
-    if (!has_rotations(set) && dof_of(set, k) != static_cast<int>(k % 3))
+  constexpr double kAcross = 1e-9;  // of two directions
+  for (size_t k = 0; !has_rotations(set) && k + 2 < set.dofs.size(); k += 3) {
+    const Eigen::Matrix3d axes = set.direction.middleRows<3>(static_cast<Eigen::Index>(k));
+    if (!(axes * axes.transpose()).isIdentity(kAcross))
       throw InputError(
           fmt::format("{}: found {}, expected x y z of each node", spec.where, set.labels[k]));
+  }
   if (has_rotations(set) ? set.dofs.size() > 6 : set.dofs.size() % 3 != 0)
     throw InputError(fmt::format("{}: found {} directions, expected x y z of nodes, or one point",
                                  spec.where, set.dofs.size()));
@@ -62,20 +68,21 @@ void add_to_set(SparseMatrix& M, const PointMassSpec& spec, const rom::DofSet& s
     for (const int32_t dof : set.dofs) M.coeffRef(dof, dof) += share;
     return;
   }
+  constexpr double kLeft = 1e-9;  // of a direction that no coordinate has
   const Eigen::Matrix<double, 6, 6> block = mass_block(spec);
-  std::array<int32_t, 6> dofs;
-  dofs.fill(-1);
-  for (size_t k = 0; k < set.dofs.size(); ++k) dofs[dof_of(set, k)] = set.dofs[k];
-  for (int a = 0; a < 6; ++a) {
-    const int32_t row = dofs[a];
-    if (row < 0 && block(a, a) > 0.0)
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> axes = axes_of(set);
+  const Eigen::Matrix<double, 6, 6> left =
+      Eigen::Matrix<double, 6, 6>::Identity() - axes.transpose() * axes;
+  for (int a = 0; a < 6; ++a)
+    if (left.row(a).norm() > kLeft && left.row(a) * block * left.row(a).transpose() > 0.0)
       throw InputError(fmt::format("{}: found no coordinate {} that moves the mass, expected one",
                                    spec.where, kDofNames[a]));
-    for (int b = 0; b < 6; ++b) {
-      const int32_t col = dofs[b];
-      if (row >= col && col >= 0 && block(a, b) != 0.0) M.coeffRef(row, col) += block(a, b);
+  const Eigen::MatrixXd own = axes * block * axes.transpose();
+  for (size_t a = 0; a < set.dofs.size(); ++a)
+    for (size_t b = 0; b < set.dofs.size(); ++b) {
+      const double value = own(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+      if (set.dofs[a] >= set.dofs[b] && value != 0.0) M.coeffRef(set.dofs[a], set.dofs[b]) += value;
     }
-  }
 }
 
 void add_to_point(SparseMatrix& M, const PointMassSpec& spec, const SparseMatrix& T,

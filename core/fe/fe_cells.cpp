@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "core/base/error.hpp"
 #include "core/mesh/mesh_file.hpp"
@@ -127,7 +128,9 @@ Material read_material(const H5File& file, const std::string& group) {
 
 void write_sections(H5File& file, const FeCells& cells) {
   mesh::write_shells(file, cells.shells);
+  std::set<int32_t> written;  // quadrilaterals and triangles of a region share its section
   for (const mesh::ShellBlock& block : cells.shells) {
+    if (!written.insert(block.region).second) continue;
     const ShellSection& section = cells.sections[block.region];
     const std::string group = fmt::format("sections/{}", block.region);
     for (const auto& [key, member] : kSection) file.set(group, key, section.*member);

@@ -72,6 +72,11 @@ void ChainComponent::add_bodies(ModelBuilder& model) {
     const LinkMass& mass = spec_.make.mass(static_cast<int>(j));
     ModalBody link = make_planar_body(fmt::format("{} link {}", spec_.name, j + 1), mass.mass,
                                       mass.inertia, start);
+    const auto plane = spec_.plane();
+    link.rigid.setZero();
+    link.rigid.row(0).head<3>() = std::sqrt(mass.mass) * plane.first.transpose();
+    link.rigid.row(1).head<3>() = std::sqrt(mass.mass) * plane.second.transpose();
+    link.rigid(2, 3 + spec_.normal) = std::sqrt(mass.inertia);
     link.family = spec_.name;
     link.arm = spec_.make.half(static_cast<int>(j));
     const int body = model.add_body(std::move(link), spec_.where);

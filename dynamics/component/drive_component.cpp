@@ -145,6 +145,15 @@ double speed_of_drive(const Config& root, const Config& table, const std::string
   table.fail(key, fmt::format("found \"{}\", expected the name of a [[drive]]", name));
 }
 
+std::vector<SpeedOrder> orders_of_drive(const Config& root, const std::string& name) {
+  std::vector<SpeedOrder> orders;
+  for (const Config& one : root.tables("drive"))
+    if (one.text_or("name", "") == name)
+      for (const DriveOrder& order : drive_keys().read(one).orders)
+        if (order.amplitude) orders.push_back({order.order, *order.amplitude, order.phase});
+  return orders;
+}
+
 ComponentList read_drives(const Config& root) {
   ComponentList drives;
   for (const Config& table : root.tables("drive"))

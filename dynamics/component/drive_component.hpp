@@ -61,6 +61,9 @@ class DriveComponent : public Component {
 
 /// Mean speed [rad/s] of the [[drive]] that `key` of `table` names; InputError for another name,
 /// and for a drive by a table.
+/// The orders of the speed of that drive.
+std::vector<SpeedOrder> orders_of_drive(const Config& root, const std::string& name);
+
 double speed_of_drive(const Config& root, const Config& table, const std::string& key,
                       const std::string& name);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/base/log.hpp"
 #include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/component/model_builder.hpp"
 
@@ -33,6 +34,13 @@ void check_weight(const LoadedBody& body) {
 
 void GravityComponent::add_loads(ModelBuilder& model) {
   if (gravity_ <= 0.0) return;
+  double felt = 0.0;
+  for (const auto& [name, body] : model.bodies())
+    felt = std::max(felt, frame_force(model.system, body, 2).cwiseAbs().maxCoeff());
+  if (felt == 0.0)
+    warn(
+        "gravity_m_s2 has no effect: it acts along -z, across the plane in which each body moves "
+        "(motion = \"xz\", \"yz\" or \"space\" feels it)");
   for (const auto& [name, body] : model.bodies()) {
     const LoadedBody* loaded = find_body(model.loaded, name);
     if (loaded != nullptr) check_weight(*loaded);

@@ -67,8 +67,14 @@ std::vector<int> set_dofs(const rom::ReducedModel& model, const std::string& set
   std::vector<int> found;
   for (size_t i = 0; i < dofs.dofs.size(); ++i) {
     // A direction within half a degree of the axis counts as the axis.
-    const bool along = std::abs(dofs.direction(static_cast<Eigen::Index>(i), axis)) > 0.99996;
-    if (along && (dofs.is_rotation[i] != 0) == rotation) found.push_back(dofs.dofs[i]);
+    const double along = dofs.direction(static_cast<Eigen::Index>(i), axis);
+    if (std::abs(along) <= 0.99996 || (dofs.is_rotation[i] != 0) != rotation) continue;
+    if (along < 0.0)
+      throw InputError(
+          fmt::format("{}: set \"{}\": {} points against {}, expected a set along the "
+                      "axes: its direction or system in the fe.toml, reversed",
+                      model.name, set, dofs.labels[i], "xyz"[axis]));
+    found.push_back(dofs.dofs[i]);
   }
   if (!found.empty()) return found;
   constexpr size_t kShown = 12;  // two nodes; a grid has hundreds

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/base/log.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/body/rigid_body.hpp"
 #include "dynamics/body/spatial_port.hpp"
@@ -62,6 +63,12 @@ void check_rigid_motion(const Config& table, RigidBodySpec& body) {
   count("start_spin_rad_s", body.spins);
   std::copy(body.moments.begin(), body.moments.end(), body.inertia.data());
   std::copy(body.spins.begin(), body.spins.end(), body.spin.data());
+  if (body.motion == Freedom::kPlane &&
+      std::abs(body.velocity(body.normal)) > 1e-6 * body.velocity.norm())
+    table.fail(
+        "start_velocity_m_s",
+        fmt::format("found {:g} m/s across the plane of its motion, expected a velocity in it",
+                    body.velocity(body.normal)));
   if (body.motion != Freedom::kSlide) return;
   if (body.guide.body == body.name)
     table.fail("guide", fmt::format("found \"{}\" itself, expected another body", body.name));
@@ -134,6 +141,11 @@ void RigidBodyComponent::add_slide(ModelBuilder& model) {
   ModalBody body = with_context(spec_.where, [&] {
     return make_sliding_body(spec_.name, spec_.mass, spec_.axis, spec_.axis.dot(spec_.velocity));
   });
+  if (!spec_.guide.body.empty())
+    warn(
+        fmt::format("{}: \"{}\" has weight and inertia along its axis alone: across it its guide "
+                    "on \"{}\" moves without them (motion = \"space\" with joints has all)",
+                    spec_.where, spec_.name, spec_.guide.body));
   set_scales(spec_, body);
   const int index = model.add_body(std::move(body), spec_.where);
   // Bodies that guide each other in a circle would ask for each other's ports without end.

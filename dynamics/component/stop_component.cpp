@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "core/base/error.hpp"
+#include "core/base/log.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/component/component_keys.hpp"
@@ -28,6 +29,12 @@ std::unique_ptr<Stop> make_stop(const StopSpec& stop, ModelBuilder& model,
   const double gap = stop.normal.dot(point.position - plane.position);
   const Eigen::Vector3d normal = plane.rotation.transpose() * stop.normal;
   PointOnPlane pair(std::move(a), std::move(b), normal);
+  constexpr double kDeep = 1e-3;  // [m]
+  if (!stop.restitution && gap < -kDeep)
+    warn(
+        fmt::format("{}: starts {:.4g} mm behind the plane, pushed with {:.3g} N: the side that "
+                    "normal points to is free",
+                    stop.a.where, -gap / kMilli, stop.stiffness * std::pow(-gap, stop.exponent)));
   if (!stop.restitution)
     return std::make_unique<CompliantStop>(stop.name, std::move(pair), stop.stiffness,
                                            stop.exponent, stop.chi, stop.friction);

@@ -13,6 +13,7 @@ namespace clatter::dynamics {
 namespace {
 
 constexpr double kSkirtTolerance = 1e-6;  // [m]
+constexpr double kSameBore = 0.02;        // of the radius
 constexpr double kGasTolerance = 1e-5;    // [m]: at 4 MPa on a bore of 107 mm under 0.4 N m
 
 bool has_grid(const LoadedBody& body, const std::string& grid) {
@@ -52,6 +53,13 @@ void check_piston_axis(const CylinderBodies& bodies) {
                     1e3 * found + 0.0, 1e3 * (bore - offset)));
   };
   if (has_grid(piston, spec.piston.skirt)) {
+    const double radius = piston.model.grid(spec.piston.skirt).radius;
+    if (spec.contact && std::abs(radius / spec.contact->bore_radius - 1.0) > kSameBore)
+      throw InputError(
+          fmt::format("{}: bore_mm: found {:.4g}, but the skirt of {} is {:.4g} mm wide, expected "
+                      "the bore of this piston",
+                      spec.contact_where, 2e3 * spec.contact->bore_radius, piston.spec.rom.string(),
+                      2e3 * radius));
     check("the skirt's axis", piston.model.grid(spec.piston.skirt).axis_point.y(), kSkirtTolerance);
   } else if (const auto line = offset != 0.0 ? gas_line(bodies, piston) : std::nullopt) {
     check("the gas load", *line, kGasTolerance);

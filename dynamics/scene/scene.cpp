@@ -21,11 +21,22 @@ constexpr double kLeastSpeed = 0.01 * std::numbers::pi / 30.0;  // of a clock [r
 
 /// The clock of the drive that [time] names: engine cycles without an [engine].
 CrankClock read_drive_clock(const Config& root, const Config& time, const std::string& drive) {
-  const double speed = std::abs(speed_of_drive(root, time, "cycle_of", drive));
+  const double mean = speed_of_drive(root, time, "cycle_of", drive), speed = std::abs(mean);
   if (!(speed >= kLeastSpeed))
     time.fail("cycle_of", fmt::format("found \"{}\" with {:g} rpm, expected a drive that turns",
                                       drive, speed * 30.0 / std::numbers::pi));
-  return {speed};
+  CrankClock clock{speed, orders_of_drive(root, drive)};
+  // The angle of the cycle grows, whatever the drive's sense: cos(-x + p) = cos(x - p).
+  if (mean < 0.0)
+    for (SpeedOrder& order : clock.orders) {
+      order.amplitude = -order.amplitude;
+      order.phase = -order.phase;
+    }
+  if (!clock.is_forward())
+    time.fail("cycle_of", fmt::format("found \"{}\", which stops or turns back by its orders, "
+                                      "expected a drive that always turns",
+                                      drive));
+  return clock;
 }
 
 std::optional<CrankClock> read_clock(const Config& root) {

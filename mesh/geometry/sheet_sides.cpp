@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/base/error.hpp"
+#include "core/base/log.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -128,6 +129,13 @@ SheetSides find_sides(const std::vector<FaceDepths>& faces,
         "is of no side{}",
         t, unit, volume / expected - 1.0, place_of(*thickest), kWayOut));
   }
+  constexpr double kHeavy = 0.03;
+  if (const double more = t * area_of_group(groups[0]) / volume - 1.0; more > kHeavy)
+    warn(fmt::format(
+        "sheet of {:.4g} {}: its larger side, which is meshed, is {:.2g} % larger than the "
+        "mid-surface, as at sharp corners: it weighs so much more and is softer by about as much; "
+        "kind = \"cad\" meshes the solid, and a mid-surface of the CAD program has neither error",
+        t, unit, 100.0 * more));
   out.outer = std::move(groups[0]);
   out.inner = std::move(groups[1]);
   return out;

@@ -44,12 +44,17 @@ class Rom(Artefact):
     @functools.cached_property
     def D(self) -> np.ndarray:
         """Damping matrix, r x r, symmetric [N s/m]: alpha K + beta M, with a table of modal damping also
-        M Phi diag(2 zeta omega) Phi^T M."""
+        M Phi diag(2 zeta omega) Phi^T M. Loss factors are not in it, but in `loss`."""
         rayleigh = self.attribute("alpha") * self.K + self.attribute("beta") * self.M
         if "modal_damping" not in self.file:
             return rayleigh
         M_Phi = self.M @ self._modes.shapes
         return rayleigh + (M_Phi * self._table_rates) @ M_Phi.T
+
+    @functools.cached_property
+    def loss(self) -> np.ndarray:
+        """Imaginary part of the stiffness by loss factors, r x r, symmetric [N/m]: K + i loss; 0 without loss factors."""
+        return dataset(self.file, "loss") if "loss" in self.file else np.zeros_like(self.K)
 
     @functools.cached_property
     def sets(self) -> dict:
@@ -128,7 +133,7 @@ class Rom(Artefact):
         `input`. displacement [m/N], velocity [m/(s N)], acceleration [m/(s2 N)]; rotations [rad], moments [N m].
 
         input: a load, a set or a coordinate ("tip.z"); output: a set or a coordinate; hz: frequencies [Hz]. It is exact for the
-        matrices M, D, K: their modes have no coupling by D. A frequency above the certificate's limit gives a warning, 0 Hz
+        matrices M, D, K + i loss: the modes have no coupling by D, that by loss factors is solved at each frequency. A frequency above the certificate's limit gives a warning, 0 Hz
         of a part that nothing holds is refused."""
         if quantity not in POWERS:
             raise BadArtefact(f"frf: quantity: found {quantity}, expected {', '.join(POWERS)}")
@@ -141,9 +146,13 @@ class Rom(Artefact):
             warnings.warn(f"{self.path}: {omega.max() / (2.0 * np.pi):g} Hz: its modes are accurate to {limit:g} Hz", stacklevel=2)
         squared = (2.0 * np.pi * self._modes.frequency_hz) ** 2
         rates = self.attribute("alpha") * squared + self.attribute("beta") + self._table_rates
-        amounts = 1.0 / (squared + 1j * omega[:, None] * rates - omega[:, None] ** 2)
+        stiffness = squared + 1j * omega[:, None] * rates - omega[:, None] ** 2
         out, force = self.T(output) @ self._modes.shapes, self._modes.shapes.T @ self._force(input)
-        return np.einsum("om,fm,mi,f->foi", out, amounts, force, (1j * omega) ** POWERS[quantity], optimize=True)
+        power = (1j * omega) ** POWERS[quantity]
+        if "loss" not in self.file:
+            return np.einsum("om,fm,mi,f->foi", out, 1.0 / stiffness, force, power, optimize=True)
+        loss = 1j * (self._modes.shapes.T @ self.loss @ self._modes.shapes)
+        return np.array([p * (out @ np.linalg.solve(loss + np.diag(s), force)) for s, p in zip(stiffness, power)])
 
     @property
     def rigid_modes(self) -> int:

@@ -129,7 +129,8 @@ const Keys<SensorRule>& sensor_keys() {
                    "point to which the nearest node of the skin is taken")
             .shown_in("m");
         key.direction("direction", sensor.direction,
-                      "direction of the motion; x, y, z and the normal without it");
+                      "direction of the motion; x, y, z and the normal without it")
+            .needs("position");
         key.one_of({"set", "position"});
         key.check([](const Config&, SensorRule& s) {
           if (s.name.empty()) s.name = s.set;

@@ -103,6 +103,30 @@ TEST_F(FeModelFile, ReturnsTheCellsAndTheirMaterials) {
   EXPECT_EQ(back.temperature_rise.at("gas"), model.temperature_rise.at("gas"));
 }
 
+// Quadrilaterals and triangles of one region have one section with axes and layers.
+TEST_F(FeModelFile, ReturnsTheSectionOfARegionOfTwoKindsOfShells) {
+  fe::FeModel model = sample();
+  mesh::ShellBlock quads, triangles;
+  quads.type = mesh::FaceType::kQuad4;
+  quads.nodes = IndexMatrix(1, 4);
+  quads.nodes << 0, 1, 2, 3;
+  triangles.type = mesh::FaceType::kTri3;
+  triangles.nodes = IndexMatrix(1, 3);
+  triangles.nodes << 1, 2, 3;
+  model.cells.shells = {quads, triangles};
+  fe::ShellSection section;
+  section.thickness = 0.002;
+  section.axes =
+      fe::Axes{fe::Axes::Kind::kCylindrical, {1.0, 2.0, 3.0}, Eigen::Matrix3d::Identity()};
+  section.layers.push_back({model.cells.materials.at(0), 0.002, 0.3});
+  model.cells.sections = {section};
+  save(model);
+  const fe::FeModel back = fe::read_fe_model(path_);
+  ASSERT_EQ(back.cells.shells.size(), 2u);
+  EXPECT_EQ(back.cells.sections.at(0).axes->origin, section.axes->origin);
+  EXPECT_EQ(back.cells.sections[0].layers.at(0).angle, 0.3);
+}
+
 TEST_F(FeModelFile, RefusesCellsOnNodesThatDoNotExist) {
   fe::FeModel model = sample();
   model.cells.blocks[0].nodes(0, 1) = static_cast<int32_t>(model.nodes.rows());

@@ -8,11 +8,14 @@
 
 #include "assembly/load/load_case.hpp"
 #include "assembly/load/mass_properties.hpp"
+#include "assembly/load/point_mass.hpp"
 #include "bar_model.hpp"
 #include "block_mesh.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/dense/cholesky.hpp"
+#include "core/mesh/boundary.hpp"
+#include "core/mesh/shape.hpp"
 #include "small_solver.hpp"
 #include "tests/refusal.hpp"
 
@@ -199,6 +202,46 @@ direction = [0.0, 0.0, -1.0]
   EXPECT_NEAR(resultant(2) / -m, 1.0, 1e-12);
   EXPECT_NEAR(resultant(3) / -(0.1 * m), 1.0, 1e-12);  // both centres lie at y = 0.1
   EXPECT_NEAR(model.mass.mass / m, 1.0, 1e-13);
+}
+
+// On a node that is kept along other axes a mass beside it is where its offset says.
+TEST(PointMass, OnASetOfTurnedDirectionsHasTheEnergyOfTheMass) {
+  rom::DofSet set;
+  set.kind = "nodes";
+  set.dofs = {5, 1, 2, 3, 4, 0};
+  set.is_rotation = {0, 0, 0, 1, 1, 1};
+  const Eigen::Matrix3d axes =
+      Eigen::AngleAxisd(2.1, Eigen::Vector3d(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
+  set.direction.resize(6, 3);
+  set.direction << axes.transpose(), axes.transpose();
+  set.position = RowMatrix::Zero(6, 3);
+  PointMassSpec spec;
+  spec.mass = 3.0;
+  spec.offset = {0.1, -0.2, 0.4};
+  spec.inertia = Eigen::Vector3d(0.1, 0.2, 0.3).asDiagonal();
+  SparseMatrix M(6, 6);
+  add_to_set(M, spec, set);
+  const Eigen::Vector3d v(0.3, 0.7, -1.1), w(0.9, -0.4, 0.2);
+  Eigen::VectorXd q(6);
+  for (int k = 0; k < 3; ++k) {
+    q(set.dofs[k]) = axes.col(k).dot(v);
+    q(set.dofs[k + 3]) = axes.col(k).dot(w);
+  }
+  const Eigen::Vector3d at = v + w.cross(spec.offset);
+  EXPECT_NEAR(q.dot(multiply_symmetric(M, q).col(0)),
+              3.0 * at.squaredNorm() + w.dot(spec.inertia * w), 1e-12);
+}
+
+TEST(LoadCase, AcrossABoltIsRefused) {
+  rom::DofSet set;
+  set.kind = "bolt";
+  set.dofs = {2};
+  set.direction = Eigen::RowVector3d(0.0, 0.0, -1.0);
+  EXPECT_EQ(set_load(3, set, {0, 0, 4.0}, {0, 0, 0}, "load t")(2), -4.0);
+  EXPECT_NE(test::refusal_of([&] {
+              set_load(3, set, {1.0, 0, 0}, {0, 0, 0}, "load t");
+            }).find("load t: found a load beside the axis (0, 0, -1) of the bolt"),
+            std::string::npos);
 }
 
 // M a: the uniform field is the load by direction, and half of the nodes have half of M's columns.

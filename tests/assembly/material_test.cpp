@@ -108,7 +108,7 @@ fe::NodalMatrices wound_ring(const Eigen::Vector3d& shift, fe::Axes::Kind kind) 
 }
 
 // The directions are those at the place of each cell, wherever the part stands.
-TEST(Assembly, APartWithCylindricalDirectionsIsAsStiffAtAnyPlace) {
+TEST(HardF2_MaterialAxes, APartIsAsStiffAtAnyPlace) {
   for (const auto kind : {fe::Axes::Kind::kCylindrical, fe::Axes::Kind::kSpherical}) {
     const SparseMatrix here = wound_ring(Eigen::Vector3d::Zero(), kind).K;
     const SparseMatrix away = wound_ring({0.7, -0.4, 1.1}, kind).K;
@@ -117,7 +117,7 @@ TEST(Assembly, APartWithCylindricalDirectionsIsAsStiffAtAnyPlace) {
 }
 
 // u_r = c r stretches around by c and along the radius by c: hardly anything but the hoops resists.
-TEST(Assembly, HoopsResistTheGrowthOfARing) {
+TEST(HardF2_MaterialAxes, HoopsResistTheGrowthOfARing) {
   BlockOptions options;
   options.type = mesh::CellType::kHex20;
   options.curved = options.wrap_x = true;
@@ -125,8 +125,7 @@ TEST(Assembly, HoopsResistTheGrowthOfARing) {
   fe::Material material =
       parse("E_gpa = [1, 200, 1]\nnu = [0.0, 0.0, 0.0]\nG_gpa = [1, 1, 1]\nrho = 1600");
   material.axes = fe::Axes{fe::Axes::Kind::kCylindrical, {}, Eigen::Matrix3d::Identity()};
-  const SparseMatrix K =
-      fe::assemble(mesh, materials_of(mesh, material), fe::node_pattern(mesh)).K;
+  const SparseMatrix K = fe::assemble(mesh, materials_of(mesh, material), fe::node_pattern(mesh)).K;
   RowMatrix u = mesh.nodes;
   u.col(2).setZero();
   const Eigen::VectorXd motion = u.reshaped<Eigen::RowMajor>();

@@ -279,6 +279,33 @@ directions = "z"
   EXPECT_LT((got - want).norm(), kSolve * want.norm());
 }
 
+// A direction of a system that points against a basic axis is that direction, not the axis.
+TEST(Supports, InATurnedSystemMoveAlongItsDirections) {
+  const mesh::Mesh mesh = bar();
+  const fe::FeModel model = build(mesh, R"(
+[system.turned]
+x = [-1.0, 0.0, 0.0]
+z = [0.0, 0.0, 1.0]
+[[support]]
+name = "foot"
+surface = "z0"
+system = "turned"
+[[load]]
+name = "shift"
+kind = "displacement"
+surface = "z0"
+system = "turned"
+directions = "x"
+value = 0.25e-3
+)")
+                                .model;
+  const Eigen::VectorXd u = model.supports.T * model.prescribed.at("shift");
+  for (const int32_t node : mesh::nodes_of(mesh.surface("z0"))) {
+    EXPECT_NEAR(u(3 * node), -0.25e-3, 1e-12);
+    EXPECT_EQ(u(3 * node + 1), 0.0);
+  }
+}
+
 TEST(Supports, HoldingADirectionTwiceIsHoldingIt) {
   const mesh::Mesh mesh = bar();
   const fe::FeModel twice =

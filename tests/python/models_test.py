@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """clatter.Rom, Modes and Model on the beam: against its full model, beam theory and hand calculations."""
 import pathlib
+import shutil
 import sys
 import unittest
 import warnings
@@ -89,6 +90,19 @@ class Models(stages.PipelineTest):
         at = 2.0 * np.pi * 100.0
         direct = rom.T("sensor_tip") @ np.linalg.solve(rom.K + 1j * at * rom.D - at**2 * rom.M, rom.T("tip.z").T)
         np.testing.assert_allclose(rom.frf("tip.z", "sensor_tip", 100.0)[0], direct, rtol=1e-8, atol=1e-8 * abs(direct).max())
+
+    def test_loss_factors_are_in_the_frf(self):
+        recipe = 'method = "craig-bampton"\nboundary = ["tip"]\nrows = ["sensor_tip"]\nfmax_hz = 2000.0\n'
+        path = shutil.copy(self.reduced({}, recipe).path, self.folder / "loss.rom.h5")
+        with h5py.File(path, "r+") as file:
+            file["loss"] = 0.05 * file["K_rr"][()] + 0.3 * np.diag(np.diag(file["K_rr"][()]))  # couples the modes
+        rom = clatter.Rom(path)
+        hz = np.array([40.0, 100.0])
+        found = rom.frf("tip.z", "sensor_tip", hz, "velocity")
+        for at, one in zip(2.0 * np.pi * hz, found):
+            matrix = rom.K + 1j * rom.loss + 1j * at * rom.D - at**2 * rom.M
+            direct = 1j * at * rom.T("sensor_tip") @ np.linalg.solve(matrix, rom.T("tip.z").T)
+            np.testing.assert_allclose(one, direct, rtol=1e-8, atol=1e-8 * abs(direct).max())
 
     def test_static_response_and_rows_of_recovered_sets_are_those_of_the_full_model(self):
         rom = self.reduced({}, 'method = "craig-bampton"\nboundary = ["tip"]\nrows = ["sensor_tip"]\nfmax_hz = 1000.0\n')

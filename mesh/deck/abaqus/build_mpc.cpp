@@ -225,6 +225,12 @@ void add_pair(Model& model, const std::string& type, const Fields& fields, int32
     model.deck.rigid.push_back(std::move(rigid));
     return;
   }
+  for (const int32_t row : {a, b})
+    if (!node_map.displacement_system(row).empty())
+      fields.fail(
+          fmt::format("*MPC {}: node {} has *TRANSFORM, which is not supported here, expected "
+                      "*EQUATION",
+                      type, model.numbering.node_ids()[row]));
   const bool rotations = node_map.turns(node_map.require(a)) && node_map.turns(node_map.require(b));
   for (int k = 0; k < (type == "TIE" && rotations ? 6 : 3); ++k) {
     equations.push_back({fields.origin(), {{a, k, 1.0}, {b, k, -1.0}}});

@@ -125,13 +125,20 @@ class SurfaceReader {
  private:
   void read_nodes(size_t use, const Card& card, const std::string& key) {
     std::vector<int32_t> rows;
+    std::set<double> areas;
     for (size_t i = 0; i < card.size(); ++i) {
       const Fields fields = card.line(i, model_.source);
       fields.at_most(2, "a node or node set, area");
+      areas.insert(fields.number_or(1, "area", 1.0));
       const auto more = model_.sets.nodes_at(fields, 0, use);
       rows.insert(rows.end(), more.begin(), more.end());
     }
     sort_unique(rows);
+    if (areas.size() > 1)
+      model_.deck.notes.push_back(
+          fmt::format("{}: the areas of its nodes are left out: they count alike in a coupling, "
+                      "*DISTRIBUTING COUPLING has weights",
+                      model_.source.where(card.origin())));
     model_.node_surfaces[key] = std::move(rows);
   }
 

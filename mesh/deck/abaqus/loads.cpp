@@ -196,10 +196,10 @@ void Loads::add_acceleration(size_t use, const Fields& fields, const Eigen::Vect
   Gravity& gravity = gravity_[{a[0], a[1], a[2]}];
   if (gravity.step != step) gravity = Gravity();
   const std::vector<bool> more = covered_by(use, fields);
-  gravity.covered.resize(more.size(), false);
+  gravity.times.resize(more.size(), 0);
   gravity.step = step;
   gravity.origin = fields.origin();
-  for (size_t i = 0; i < more.size(); ++i) gravity.covered[i] = gravity.covered[i] || more[i];
+  for (size_t i = 0; i < more.size(); ++i) gravity.times[i] += more[i] ? 1 : 0;
   // Ends gravity of an earlier step on these elements: there is one field for all of them.
   std::erase_if(gravity_, [&](const auto& entry) { return entry.second.step != step; });
 }
@@ -273,22 +273,49 @@ void Loads::list_pressures(Step& out) {
 
 void Loads::list_gravity(Step& out) const {
   for (const auto& [vector, gravity] : gravity_) {
-    bool all = true;
-    for (size_t i = 0; i < gravity.covered.size(); ++i)
-      all = all && (gravity.covered[i] || model_->region_of(static_cast<int32_t>(i)) < 0);
-    if (!all) {
+    std::set<int> times;  // of what has mass
+    for (size_t i = 0; i < gravity.times.size(); ++i)
+      if (has_mass(static_cast<int32_t>(i))) times.insert(gravity.times[i]);
+    if (times.size() > 1) {
       model_->source.fail(gravity.origin,
-                          "GRAV, BX, BY or BZ acts on some elements only, which is not "
-                          "supported, expected all");
+                          "GRAV, BX, BY or BZ acts on some elements only, which is not supported, "
+                          "expected all, also those of *MASS and beams: a line without an element "
+                          "set loads them all");
     }
-    out.acceleration += Eigen::Vector3d(vector.data());
+    if (!times.empty()) out.acceleration += *times.begin() * Eigen::Vector3d(vector.data());
   }
 }
 
+// Solids, shells, beams and masses.
+bool Loads::has_mass(int32_t element) const {
+  if (model_->region_of(element) >= 0) return true;
+  if (const PointElement* point = model_->numbering.point(element); point != nullptr)
+    return point->type == "MASS";
+  return model_->numbering.thin(element) != nullptr;
+}
+
+// Lines with one axis and speed are one.
+std::vector<Loads::Rotation> Loads::united_rotations() const {
+  std::vector<Rotation> out;
+  for (const Rotation& one : rotations_) {
+    const auto same = std::ranges::find_if(out, [&](const Rotation& other) {
+      return other.what.omega_squared == one.what.omega_squared &&
+             other.what.axis == one.what.axis && other.what.point == one.what.point;
+    });
+    if (same == out.end())
+      out.push_back(one);
+    else
+      for (size_t i = 0; i < one.covered.size(); ++i)
+        same->covered[i] = same->covered[i] || one.covered[i];
+  }
+  return out;
+}
+
 // Only entire regions rotate: the rotating part of a section is a region of its own (mesh.cpp).
+// Masses and beams do so with all of the part, or not.
 void Loads::list_rotations(Step& out) const {
   const Mesh& mesh = model_->deck.mesh;
-  for (const Rotation& rotation : rotations_) {
+  for (const Rotation& rotation : united_rotations()) {
     if (rotation.what.omega_squared == 0.0) continue;
     std::vector<bool> turning(mesh.regions.size(), false);
     const auto region_of = [&](size_t i) { return model_->region_of(static_cast<int32_t>(i)); };
@@ -304,7 +331,18 @@ void Loads::list_rotations(Step& out) const {
     for (size_t r = 0; r < turning.size(); ++r) {
       if (turning[r]) names.push_back(mesh.regions[r]);
     }
-    if (names.size() == mesh.regions.size()) names.clear();
+    size_t others = 0, turned = 0;  // masses and beams
+    for (size_t i = 0; i < rotation.covered.size(); ++i) {
+      if (region_of(i) >= 0 || !has_mass(static_cast<int32_t>(i))) continue;
+      ++others;
+      turned += rotation.covered[i] ? 1 : 0;
+    }
+    const bool everything = names.size() == mesh.regions.size() && turned == others;
+    if (turned > 0 && !everything)
+      model_->source.fail(rotation.origin,
+                          "CENTRIF acts on *MASS or beams and not on the whole part, which is not "
+                          "supported, expected all: a line without an element set loads them all");
+    if (everything) names.clear();
   }
 }
 

@@ -35,7 +35,7 @@ class Loads {
     const std::string* system = nullptr;
   };
   struct Gravity {
-    std::vector<bool> covered;  // by cell
+    std::vector<int> times;  // by element: the same load twice acts twice
     StepNumber step = 0;
     Origin origin = 0;
   };
@@ -43,7 +43,7 @@ class Loads {
   // One line of CENTRIF: the same axis and cells again replace it.
   struct Rotation {
     Step::Rotation what;
-    std::vector<bool> covered;  // by cell
+    std::vector<bool> covered;  // by element
     StepNumber step = 0;
     Origin origin = 0;
   };
@@ -61,6 +61,8 @@ class Loads {
   void list_pressures(Step& out);
   void list_rotations(Step& out) const;
   void list_gravity(Step& out) const;
+  bool has_mass(int32_t element) const;
+  std::vector<Rotation> united_rotations() const;
   void list_temperature(Step& out, StepNumber step);
   std::vector<double> initial_field() const;
 

@@ -44,6 +44,7 @@ class Bar {
   const RawBarProperty& property_of(const std::optional<RawBar>& defaults) const {
     int32_t id = raw_.property;
     if (id == 0 && defaults) id = defaults->property;
+    if (id == 0) id = raw_.id;  // as its own number
     const auto found = model_.raw.bar_properties.find(id);
     if (found == model_.raw.bar_properties.end())
       fail(fmt::format("found no property {}", id == 0 ? "(PID is blank)" : std::to_string(id)));

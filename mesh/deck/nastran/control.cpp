@@ -19,27 +19,26 @@ constexpr std::array<std::string_view, 23> kHarmlessExecutive = {
     "ECHOOFF",   "ECHOON", "GEOMCHECK",    "ID",   "INIT",    "LABEL",  "MODEL_CHECK",  "NASTRAN",
     "RFINCLUDE", "SOL",    "SPARSESOLVER", "TIME", "VERSION", "EXPAND", "DBSETDEL"};
 
-constexpr std::array<std::string_view, 116> kHarmlessCase = {
-    "ACCELERATION",  "ACFPMRESULT", "ANALYSIS",    "AUTOSPC",    "AUXMODEL",      "B2GG",
-    "B2PP",          "BCONTACT",    "BCRESULTS",   "BCSET",      "BGRESULTS",     "BOUTPUT",
-    "BUCKLING",      "CMETHOD",     "DESGLB",      "DESOBJ",     "DESSUB",        "DESVAR",
-    "DISPLACEMENT",  "DLOAD",       "DRSPAN",      "ECHO",       "ECHOOFF",       "ECHOON",
-    "EDE",           "EKE",         "ELFORCE",     "ELSDCON",    "ELSTRAIN",      "ELSTRESS",
-    "ELSUM",         "ENDTIME",     "ESE",         "EXTSEOUT",   "FLSTCNT",       "FLUX",
-    "FORCE",         "FREQUENCY",   "GPFORCE",     "GPKE",       "GPSDCON",       "GPSTRAIN",
-    "GPSTRESS",      "GROUNDCHECK", "HOUTPUT",     "IC",         "K42GG",         "LABEL",
-    "LINE",          "LOADSET",     "MAXLINES",    "MAXMIN",     "MEFFMASS",      "MFLUID",
-    "MODALKE",       "MODALSE",     "MODESELECT",  "MPCFORCES",  "NLPARM",        "NLSTEP",
-    "NLSTRESS",      "NONLINEAR",   "NOUTPUT",     "OFREQUENCY", "OLOAD",         "OMODES",
-    "OTIME",         "OUTPUT",      "PAGE",        "PLOTID",     "PRESSURE",      "RANDOM",
-    "REPCASE",       "RESVEC",      "RGYRO",       "RSMETHOD",   "SACCELERATION", "SDAMPING",
-    "SDISPLACEMENT", "SEALL",       "SEDR",        "SEDV",       "SEEXCLUDE",     "SEFINAL",
-    "SEKREDUCE",     "SELGENERATE", "SEMGENERATE", "SET",        "SHELLTHK",      "SKIP",
-    "SPCFORCES",     "STATSUB",     "STRAIN",      "STRESS",     "STRESSES",      "STRFIELD",
-    "SUBCOM",        "SUBSEQ",      "SUBTITLE",    "SUPER",      "SUPORT1",       "SURFACE",
-    "SVECTOR",       "SVELOCITY",   "THERMAL",     "TITLE",      "TSTEP",         "TSTEPNL",
-    "VARIABLE",      "VECTOR",      "VELOCITY",    "VOLUME",     "VUGRID",        "WEIGHTCHECK",
-    "XTITLE",        "YTITLE"};
+constexpr std::array<std::string_view, 114> kHarmlessCase = {
+    "ACCELERATION",  "ACFPMRESULT", "ANALYSIS",    "AUTOSPC",     "AUXMODEL",      "B2GG",
+    "B2PP",          "BCONTACT",    "BCRESULTS",   "BCSET",       "BGRESULTS",     "BOUTPUT",
+    "BUCKLING",      "CMETHOD",     "DESGLB",      "DESOBJ",      "DESSUB",        "DESVAR",
+    "DISPLACEMENT",  "DLOAD",       "DRSPAN",      "ECHO",        "ECHOOFF",       "ECHOON",
+    "EDE",           "EKE",         "ELFORCE",     "ELSDCON",     "ELSTRAIN",      "ELSTRESS",
+    "ELSUM",         "ENDTIME",     "ESE",         "EXTSEOUT",    "FLSTCNT",       "FLUX",
+    "FORCE",         "FREQUENCY",   "GPFORCE",     "GPKE",        "GPSDCON",       "GPSTRAIN",
+    "GPSTRESS",      "GROUNDCHECK", "HOUTPUT",     "IC",          "K42GG",         "LABEL",
+    "LINE",          "LOADSET",     "MAXLINES",    "MAXMIN",      "MEFFMASS",      "MFLUID",
+    "MODALKE",       "MODALSE",     "MODESELECT",  "MPCFORCES",   "NLPARM",        "NLSTEP",
+    "NLSTRESS",      "NONLINEAR",   "NOUTPUT",     "OFREQUENCY",  "OLOAD",         "OMODES",
+    "OTIME",         "OUTPUT",      "PAGE",        "PLOTID",      "PRESSURE",      "RANDOM",
+    "REPCASE",       "RESVEC",      "RGYRO",       "RSMETHOD",    "SACCELERATION", "SDAMPING",
+    "SDISPLACEMENT", "SEALL",       "SEDR",        "SEDV",        "SEEXCLUDE",     "SEFINAL",
+    "SEKREDUCE",     "SELGENERATE", "SEMGENERATE", "SET",         "SHELLTHK",      "SKIP",
+    "SPCFORCES",     "STRAIN",      "STRESS",      "STRESSES",    "STRFIELD",      "SUBSEQ",
+    "SUBTITLE",      "SUPER",       "SUPORT1",     "SURFACE",     "SVECTOR",       "SVELOCITY",
+    "THERMAL",       "TITLE",       "TSTEP",       "TSTEPNL",     "VARIABLE",      "VECTOR",
+    "VELOCITY",      "VOLUME",      "VUGRID",      "WEIGHTCHECK", "XTITLE",        "YTITLE"};
 
 // OptiStruct's lines before and within the case control.
 constexpr std::array<std::string_view, 23> kOptiStruct = {
@@ -49,9 +48,9 @@ constexpr std::array<std::string_view, 23> kOptiStruct = {
 
 // Those that change what is read.
 constexpr std::array<std::string_view, 2> kReadExecutive = {"CEND", "SOL"};
-constexpr std::array<std::string_view, 14> kReadCase = {
-    "ANALYSIS", "BEGIN",  "BGSET", "K2GG",  "K2PP", "LOAD",    "M2GG",
-    "M2PP",     "METHOD", "MPC",   "PARAM", "SPC",  "SUBCASE", "TEMPERATURE"};
+constexpr std::array<std::string_view, 16> kReadCase = {
+    "ANALYSIS", "BEGIN", "BGSET", "K2GG", "K2PP",    "LOAD",    "M2GG",   "M2PP",
+    "METHOD",   "MPC",   "PARAM", "SPC",  "STATSUB", "SUBCASE", "SUBCOM", "TEMPERATURE"};
 
 // NAME(OPTIONS) = VALUE, in capitals.
 struct Command {
@@ -186,9 +185,14 @@ class ControlParser {
 
   Fate case_control(const Command& command, const std::string& line) {
     control_.has_cases = true;
-    if (plots_ && command.name != "SUBCASE") return Fate::kPassed;
-    if (command.name == "SUBCASE") {
-      plots_ = false;
+    if (plots_ && command.name != "SUBCASE" && command.name != "SUBCOM") return Fate::kPassed;
+    if (command.name == "SUBCOM") {
+      combines_ = true;
+      control_.combinations.push_back(source_.origin());
+    } else if (combines_ && command.name != "SUBCASE") {
+      return Fate::kPassed;
+    } else if (command.name == "SUBCASE") {
+      plots_ = combines_ = false;
       control_.subcases.push_back({set_number(command), source_.origin(), above_});
     } else if (command.name == "PARAM") {
       const std::string_view text = command.value;
@@ -218,6 +222,8 @@ class ControlParser {
       choice.load = set_number(command);
     } else if (is(command.name, "METHOD")) {
       if (!has_option(command, "FLUID")) choice.method = set_number(command);
+    } else if (command.name == "STATSUB") {
+      control_.preloads.push_back(source_.origin());
     } else if (command.name == "BGSET") {
       control_.glue = set_number(command);
     } else if (command.name == "K2GG" || command.name == "K2PP") {
@@ -266,7 +272,10 @@ class ControlParser {
   void temperature(const Command& command, Choice& choice) {
     const int32_t set = set_number(command);
     const bool both = command.options.empty() || has_option(command, "BOTH");
-    if (has_option(command, "MATE")) return;  // constants do not depend on temperature here
+    if (has_option(command, "MATE")) {  // constants do not depend on temperature here
+      control_.material_temperatures.push_back(source_.origin());
+      return;
+    }
     if (has_option(command, "INIT")) {
       control_.initial_temperature = set;
     } else if (both || has_option(command, "LOAD")) {
@@ -313,8 +322,9 @@ class ControlParser {
   Refusals& refusals_;
   Part part_ = Part::kUnknown;
   Control control_;
-  Choice above_;        // selected above the first subcase: for all
-  bool plots_ = false;  // after OUTPUT(PLOT): plotter commands
+  Choice above_;           // selected above the first subcase: for all
+  bool plots_ = false;     // after OUTPUT(PLOT): plotter commands
+  bool combines_ = false;  // after SUBCOM, until the next SUBCASE
 };
 
 }  // namespace

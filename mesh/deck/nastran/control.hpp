@@ -36,13 +36,14 @@ struct Control {
   int32_t glue = 0;                                // BGSET
   std::map<std::string, double> direct_stiffness;  // K2GG, K2PP: factors by name of DMIG
   std::map<std::string, double> direct_mass;       // M2GG, M2PP
-  double direct_stiffness_factor = 1.0, direct_mass_factor = 1.0;  // PARAM, CK2 and CM2
-  double mass_factor = 1.0;                                        // PARAM, WTMASS
-  bool coupled_mass = false;                                       // PARAM, COUPMASS
-  double mass_damping = 0.0, stiffness_damping = 0.0;              // PARAM, ALPHA1 and ALPHA2
-  double loss_factor = 0.0;                                        // PARAM, G
-  bool inertia_relief = false;                                     // PARAM, INREL
-  std::vector<Subcase> subcases;                                   // one at least when has_cases
+  double direct_stiffness_factor = 1.0, direct_mass_factor = 1.0;     // PARAM, CK2 and CM2
+  double mass_factor = 1.0;                                           // PARAM, WTMASS
+  bool coupled_mass = false;                                          // PARAM, COUPMASS
+  double mass_damping = 0.0, stiffness_damping = 0.0;                 // PARAM, ALPHA1 and ALPHA2
+  double loss_factor = 0.0;                                           // PARAM, G
+  bool inertia_relief = false;                                        // PARAM, INREL
+  std::vector<Origin> preloads, combinations, material_temperatures;  // of such commands
+  std::vector<Subcase> subcases;                                      // one at least when has_cases
 };
 
 /// Reads up to and including BEGIN BULK; reads nothing when the deck begins with bulk data.

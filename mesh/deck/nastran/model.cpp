@@ -172,7 +172,8 @@ void pass_damping(Model& model) {
 }
 
 void choose_mass(Model& model) {
-  const bool has_properties = !model.raw.solids.empty() || !model.raw.shell_cells.empty();
+  const bool has_properties = !model.raw.solids.empty() || !model.raw.shell_cells.empty() ||
+                              !model.raw.bar_properties.empty();
   const bool analysis = has_properties && !model.raw.materials.empty();  // no mere mesh
   if (analysis && !model.raw.control.coupled_mass) model.deck.mass = MassForm::kLumped;
 }
@@ -204,9 +205,23 @@ void note_solution(Model& model) {
                     deck, control.solution));
   if (control.inertia_relief)
     model.deck.notes.push_back(
-        fmt::format("{}: PARAM INREL: supports are those of SPC alone; clatter-modal statics "
-                    "balances a free part by its inertia",
+        fmt::format("{}: PARAM INREL is left out: supports are those of SPC alone, and "
+                    "clatter-modal statics needs supports that hold the part",
                     deck));
+  for (const Origin origin : control.preloads)
+    model.deck.notes.push_back(
+        fmt::format("{}: STATSUB is left out: the part is that without the stress of its preload; "
+                    "[prestress] of the fe.toml takes it from results of clatter-modal statics",
+                    model.source.where(origin)));
+  for (const Origin origin : control.material_temperatures)
+    model.deck.notes.push_back(
+        fmt::format("{}: TEMPERATURE(MATERIAL) is left out: constants are those of MAT1 and the "
+                    "like, without MATT1",
+                    model.source.where(origin)));
+  for (const Origin origin : control.combinations)
+    model.deck.notes.push_back(
+        fmt::format("{}: SUBCOM is left out: a [[case]] of the fe.toml sums loads with factors",
+                    model.source.where(origin)));
 }
 
 }  // namespace clatter::mesh::deck::nastran

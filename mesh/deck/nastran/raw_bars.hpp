@@ -15,6 +15,7 @@ namespace clatter::mesh::deck::nastran {
 struct RawBar {      // CBAR, CBEAM, CROD, CONROD, CTUBE
   std::string name;  // "cbar_5"
   Origin origin = 0;
+  int32_t id = 0;
   int32_t property = 0;
   std::array<int32_t, 2> grids{};
   int32_t orientation_grid = 0;  // G0

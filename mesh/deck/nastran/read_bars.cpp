@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <span>
 
 #include "mesh/deck/bar_shapes.hpp"
@@ -89,18 +90,27 @@ constexpr std::array kShapes = {
           }},
 };
 
-/// The dimensions from field i on and NSM after them; those that are blank are `before`'s.
-BeamSection shape_at(const Card& card, size_t i, const Shape& shape, std::vector<double>& before) {
+/// The dimensions from field i on and NSM after them; those that are blank are of `before`, if any.
+std::vector<double> dimensions_at(const Card& card, size_t i, const Shape& shape,
+                                  const std::vector<double>& before) {
+  std::vector<double> out = before;
+  out.resize(shape.dimensions + 1);
   for (size_t k = 0; k < shape.dimensions; ++k)
-    if (!card.blank(i + k) || before[k] == 0.0) {
-      before[k] = card.number(i + k, "DIM");
-      if (!(before[k] > 0.0) && !(shape.name == "TUBE" && k == 1 && before[k] == 0.0))
+    if (!card.blank(i + k) || before.empty()) {
+      out[k] = card.number(i + k, "DIM");
+      if (!(out[k] > 0.0) && !(shape.name == "TUBE" && k == 1 && out[k] == 0.0))
         card.fail_expected(i + k, "DIM", "more than 0");
     }
-  BeamSection section = shape.section(before);
+  out.back() = not_negative(card, i + shape.dimensions, "NSM", out.back());
+  return out;
+}
+
+BeamSection section_of(const Card& card, size_t i, const Shape& shape,
+                       const std::vector<double>& dimensions) {
+  BeamSection section = shape.section(std::span(dimensions).first(shape.dimensions));
   if (!(section.area > 0.0) || !(section.I1 > 0.0) || !(section.I2 > 0.0) || !(section.J > 0.0))
     card.fail_expected(i, "DIM1", "dimensions that leave an area");
-  section.line_mass = not_negative(card, i + shape.dimensions, "NSM");
+  section.line_mass = dimensions.back();
   return section;
 }
 
@@ -121,15 +131,24 @@ void read_shape(const Card& card, RawDeck& raw, bool stations) {
         type, fmt::join(known, ", "), stations ? "PBEAM" : "PBAR");
     return add(card, raw, id, std::move(property));
   }
-  std::vector<double> d(shape->dimensions);
   size_t i = 8;
-  property.sections.push_back(shape_at(card, i, *shape, d));
-  const auto [k1, k2] = shape->shear(d, property.sections[0].area);
+  const std::vector<double> a = dimensions_at(card, i, *shape, {});
+  property.sections.push_back(section_of(card, i, *shape, a));
+  const auto [k1, k2] =
+      shape->shear(std::span(a).first(shape->dimensions), property.sections[0].area);
   property.shear_factors = {k1, k2};
   i += shape->dimensions + 1;
-  for (; stations && !card.blank_from(i); i += shape->dimensions + 3) {
-    const double at = card.number_or(i + 1, "X", 1.0);
-    property.sections.push_back(shape_at(card, i + 2, *shape, d));
+  std::map<size_t, double> at_fields;  // the field where each station begins: X/XB
+  for (; stations && !card.blank_from(i); i += shape->dimensions + 3)
+    at_fields[i] = card.number_or(i + 1, "X", 1.0);
+  std::vector<double> b = a;
+  for (const auto& [from, at] : at_fields)
+    if (at == 1.0) b = dimensions_at(card, from + 2, *shape, a);
+  for (const auto& [from, at] : at_fields) {
+    std::vector<double> between(a.size());
+    for (size_t k = 0; k < a.size(); ++k) between[k] = (1.0 - at) * a[k] + at * b[k];
+    const auto d = at == 1.0 ? b : dimensions_at(card, from + 2, *shape, between);
+    property.sections.push_back(section_of(card, from + 2, *shape, d));
     property.sections.back().at = at;
   }
   card.at_most(i);
@@ -139,6 +158,15 @@ void read_shape(const Card& card, RawDeck& raw, bool stations) {
 bool is_station(const Card& card, size_t line) {
   const std::string_view word = card.text(line);
   return word == "YES" || word == "YESA" || word == "NO";
+}
+
+/// Between the ends A and B, at a share of the length.
+BeamSection mixed(const BeamSection& a, const BeamSection& b, double at) {
+  BeamSection out;
+  for (double BeamSection::*value : {&BeamSection::area, &BeamSection::I1, &BeamSection::I2,
+                                     &BeamSection::I12, &BeamSection::J, &BeamSection::line_mass})
+    out.*value = (1.0 - at) * a.*value + at * b.*value;
+  return out;
 }
 
 /// A I1 I2 I12 J NSM from field i on; those that are blank are `before`'s.
@@ -159,6 +187,7 @@ void read_cbar(const Card& card, RawDeck& raw) {
   RawBar bar;
   bar.name = name_of(card);
   bar.origin = card.origin();
+  bar.id = card.id(0, "EID");
   bar.property = card.id_or(1, "PID", 0);
   bar.grids = {card.id(2, "GA"), card.id(3, "GB")};
   read_orientation(card, bar);
@@ -216,9 +245,10 @@ void read_pbar(const Card& card, RawDeck& raw) {
   section.I12 = card.number_or(18, "I12", 0.0);
   property.sections = {section};
   const double K1 = not_negative(card, 16, "K1"), K2 = not_negative(card, 17, "K2");
-  if ((K1 > 0.0) != (K2 > 0.0))
+  const bool askew = section.I12 != 0.0;  // K1 and K2 have no effect then
+  if (!askew && (K1 > 0.0) != (K2 > 0.0))
     property.refusal = fmt::format("found K1 = {:g} and K2 = {:g}, expected both or none", K1, K2);
-  if (K1 > 0.0) property.shear_factors = {K1, K2};
+  if (!askew && K1 > 0.0) property.shear_factors = {K1, K2};
   card.at_most(19);
   add(card, raw, card.id(0, "PID"), std::move(property));
 }
@@ -234,11 +264,18 @@ void read_pbeam(const Card& card, RawDeck& raw) {
   property.sections = {beam_section_at(card, 2, {})};
   size_t line = 8;
   if (!is_station(card, line)) line += 8;  // stress points at A
+  std::map<size_t, double> stations;       // the field where each begins: X/XB
   while (is_station(card, line)) {
-    const BeamSection section = beam_section_at(card, line + 2, property.sections[0]);
-    property.sections.push_back(section);
-    property.sections.back().at = card.number_or(line + 1, "X/XB", 1.0);
+    stations[line] = card.number_or(line + 1, "X/XB", 1.0);
     line += card.text(line) == "YES" ? 16 : 8;
+  }
+  const BeamSection a = property.sections[0];
+  BeamSection b = a;
+  for (const auto& [from, at] : stations)
+    if (at == 1.0) b = beam_section_at(card, from + 2, a);
+  for (const auto& [from, at] : stations) {
+    property.sections.push_back(at == 1.0 ? b : beam_section_at(card, from + 2, mixed(a, b, at)));
+    property.sections.back().at = at;
   }
   std::ranges::sort(property.sections, {}, &BeamSection::at);
   const double K1 = not_negative(card, line, "K1", 1.0),

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/base/log.hpp"
 #include "mesh/deck/system_axes.hpp"
 
 namespace clatter::mesh::deck {
@@ -201,10 +202,15 @@ void add_steps(Deck& deck, RecipeNames& names, Recipe& recipe) {
     }
     if (same_supports(*first, step))
       StepLoads(deck, names, step, recipe).add_all();
-    else
+    else {
       recipe.remarks.push_back(
           fmt::format("{} ({}) has other supports than {}: it needs a separate model", step.name,
                       step.where, first->name));
+      warn(
+          fmt::format("{}: {} has other supports than {} and is left out: it needs a model of its "
+                      "own, with its [[support]] tables",
+                      step.where, step.name, first->name));
+    }
   }
 }
 

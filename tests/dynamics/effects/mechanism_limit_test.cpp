@@ -25,7 +25,7 @@ motion = "xy"
 mass_kg = 2
 inertia_kg_m2 = 0.1
 centre_mm = [0, 100, 0]
-start_velocity_m_s = [0.3, -0.5, 0]
+start_velocity_m_s = [0.3, 0, -0.5]
 start_spin_rad_s = 2
 )";
 

@@ -112,6 +112,35 @@ TEST(AbaqusSteps, PressuresPushOnFacesGravityOnAll) {
   EXPECT_EQ(s.acceleration, Eigen::Vector3d(0, 0, -9810));
 }
 
+TEST(AbaqusSteps, TheSameGravityTwiceActsTwice) {
+  const std::string line = "EALL, GRAV, 9810., 0., 0., -1.\n";
+  EXPECT_EQ(read(kModel + step("*DLOAD\n" + line + line)).steps.at(0).acceleration,
+            Eigen::Vector3d(0, 0, -19620));
+}
+
+// A mass that is not in the set would be loaded with it.
+TEST(AbaqusSteps, LoadsOfABodyBesideAMassAreThoseOfTheBodyOrRefused) {
+  const std::string model =
+      kModel + "*ELEMENT, TYPE=MASS, ELSET=LUMP\n90, 5\n*MASS, ELSET=LUMP\n1.\n";
+  const auto bad = [&](const std::string& lines) {
+    return refusal(model + step("*DLOAD\n" + lines));
+  };
+  EXPECT_NE(bad("EALL, GRAV, 9810., 0., 0., -1.\n").find("also those of *MASS and beams"),
+            std::string::npos);
+  EXPECT_NE(bad("LUMP, CENTRIF, 4., 0,0,0, 0,0,1\n").find("CENTRIF acts on *MASS or beams"),
+            std::string::npos);
+  EXPECT_EQ(read(model + step("*DLOAD\n, GRAV, 9810., 0., 0., -1.\n")).steps.at(0).acceleration,
+            Eigen::Vector3d(0, 0, -9810));
+  const std::string body = "EALL, CENTRIF, 4., 0,0,0, 0,0,1\n",
+                    lump = "LUMP, CENTRIF, 4., 0,0,0, 0,0,1\n";
+  const Deck alone = read(model + step("*DLOAD\n" + body));
+  ASSERT_EQ(alone.steps.at(0).rotations.size(), 1u);
+  EXPECT_FALSE(alone.steps[0].rotations[0].regions.empty());  // without masses
+  const Deck both = read(model + step("*DLOAD\n" + body + lump));
+  ASSERT_EQ(both.steps.at(0).rotations.size(), 1u);
+  EXPECT_TRUE(both.steps[0].rotations[0].regions.empty());  // everything
+}
+
 TEST(AbaqusSteps, UnsupportedLoadsAreRefused) {
   const auto bad = [](const std::string& cards) { return refusal(kModel + step(cards)); };
   EXPECT_NE(bad("*DLOAD\nEALL, CORIO, 1., 0,0,0, 0,0,1\n").find("load CORIO"), std::string::npos);

@@ -27,7 +27,7 @@ Beam only_beam(const std::string& cards) {
 
 TEST(NastranBar, HasItsSectionMaterialAndOrientation) {
   const Beam bar = only_beam(
-      "PBAR,3,7,2.,3.,4.,5.,6.\n,,,,,,,,,+\n+,.8,.9,.25\n"
+      "PBAR,3,7,2.,3.,4.,5.,6.\n,,,,,,,,,+\n+,.8,.9\n"
       "CBAR,1,3,9,10,1.,0.,0.,,+\n+,5,56,.1,.2,.3,.4,.5,.6\n");
   EXPECT_EQ(bar.name, "cbar_1");
   EXPECT_EQ(bar.E, 2.1e11);
@@ -39,7 +39,7 @@ TEST(NastranBar, HasItsSectionMaterialAndOrientation) {
   EXPECT_EQ(bar.sections[0].I2, 4.0);
   EXPECT_EQ(bar.sections[0].J, 5.0);
   EXPECT_EQ(bar.sections[0].line_mass, 6.0);
-  EXPECT_EQ(bar.sections[0].I12, 0.25);
+  EXPECT_EQ(bar.sections[0].I12, 0.0);
   EXPECT_THAT(bar.shear_factors, testing::ElementsAre(0.8, 0.9));
   EXPECT_EQ(bar.y.value(), Vector3d::UnitX());
   EXPECT_THAT(bar.released_a, testing::ElementsAre(4));
@@ -117,6 +117,37 @@ TEST(NastranBar, BeamsMayTaper) {
       only_beam("PBEAML,3,7,,BAR,,,,,+\n+,2.,6.,,YES,1.,1.,6.\nCBEAM,1,3,9,10,1.,0.,0.\n");
   ASSERT_EQ(shape.sections.size(), 2u);
   EXPECT_NEAR(shape.sections[1].area, 6.0, 1e-14);
+}
+
+// MSC Nastran QRG, PBEAM, remark 7: between the ends blank fields are those of a straight line.
+TEST(NastranBar, BlankFieldsOfAStationLieBetweenTheEnds) {
+  const std::string bar = "CBEAM,1,3,9,10,1.,0.,0.\n";
+  const Beam beam = only_beam(
+      "PBEAM,3,7,8.,3.,4.,,5.,.6,+\n+,,,,,,,,,+\n+,NO,.25,,7.,,,,,+\n+,NO,1.,4.,1.,,,1.,,+\n"
+      "+,0.,0.\n" +
+      bar);
+  ASSERT_EQ(beam.sections.size(), 3u);
+  EXPECT_EQ(beam.sections[1].at, 0.25);
+  EXPECT_NEAR(beam.sections[1].area, 7.0, 1e-14);
+  EXPECT_EQ(beam.sections[1].I1, 7.0);
+  EXPECT_EQ(beam.sections[1].I2, 4.0);
+  EXPECT_NEAR(beam.sections[1].J, 4.0, 1e-14);
+  EXPECT_NEAR(beam.sections[1].line_mass, 0.6, 1e-14);
+  EXPECT_NEAR(beam.sections[2].line_mass, 0.6, 1e-14);
+  const Beam shape =
+      only_beam("PBEAML,3,7,,BAR,,,,,+\n+,2.,6.,.5,YES,.5,,,,+\n+,YES,1.,1.,2.\n" + bar);
+  ASSERT_EQ(shape.sections.size(), 3u);
+  EXPECT_NEAR(shape.sections[1].area, 1.5 * 4.0, 1e-14);
+  EXPECT_NEAR(shape.sections[1].line_mass, 0.5, 1e-14);
+  EXPECT_NEAR(shape.sections[2].line_mass, 0.5, 1e-14);  // NSM(B) is NSM(A) where it is blank
+}
+
+// QRG, PBAR, remark 5; CBAR: PID is EID where it is blank.
+TEST(NastranBar, ShearFactorsHaveNoEffectBesideI12AndABlankPropertyIsTheOwnNumber) {
+  const Beam askew =
+      only_beam("PBAR,3,7,2.,3.,4.,5.,,,+\n+,,,,,,,,,+\n+,.8,.8,.5\nCBAR,3,,9,10,1.,0.,0.\n");
+  EXPECT_EQ(askew.sections.at(0).I12, 0.5);
+  EXPECT_TRUE(askew.shear_factors.empty());
 }
 
 TEST(NastranBar, EndsOnNodesOfSolidsAreHingesAndSaid) {
