@@ -11,10 +11,9 @@ namespace clatter::assembly {
 void check_known(const keys::Source& table, std::string_view key, const std::string& name,
                  const std::set<std::string>& available) {
   if (available.contains(name)) return;
-  table.fail(key, available.empty()
-                      ? fmt::format("found \"{}\", and there is none to name here", name)
-                      : fmt::format("found \"{}\", expected one of: {}", name,
-                                    fmt::join(available, ", ")));
+  const std::string names =
+      available.empty() ? "none" : fmt::format("{}", fmt::join(available, ", "));
+  table.fail(key, fmt::format("found \"{}\", expected one of: {}", name, names));
 }
 
 std::string where(const keys::Source& table, const std::string& what) {

@@ -113,18 +113,21 @@ TEST_F(FeModelFile, ReturnsTheSectionOfARegionOfTwoKindsOfShells) {
   triangles.type = mesh::FaceType::kTri3;
   triangles.nodes = IndexMatrix(1, 3);
   triangles.nodes << 1, 2, 3;
+  quads.region = triangles.region = 1;
+  model.cells.regions.push_back("sheet");
+  model.cells.materials.push_back(model.cells.materials.at(0));
   model.cells.shells = {quads, triangles};
   fe::ShellSection section;
   section.thickness = 0.002;
   section.axes =
       fe::Axes{fe::Axes::Kind::kCylindrical, {1.0, 2.0, 3.0}, Eigen::Matrix3d::Identity()};
   section.layers.push_back({model.cells.materials.at(0), 0.002, 0.3});
-  model.cells.sections = {section};
+  model.cells.sections = {fe::ShellSection{}, section};
   save(model);
   const fe::FeModel back = fe::read_fe_model(path_);
   ASSERT_EQ(back.cells.shells.size(), 2u);
-  EXPECT_EQ(back.cells.sections.at(0).axes->origin, section.axes->origin);
-  EXPECT_EQ(back.cells.sections[0].layers.at(0).angle, 0.3);
+  EXPECT_EQ(back.cells.sections.at(1).axes->origin, section.axes->origin);
+  EXPECT_EQ(back.cells.sections[1].layers.at(0).angle, 0.3);
 }
 
 TEST_F(FeModelFile, RefusesCellsOnNodesThatDoNotExist) {

@@ -25,7 +25,7 @@ motion = "xy"
 mass_kg = 2
 inertia_kg_m2 = 0.1
 centre_mm = [0, 100, 0]
-start_velocity_m_s = [0.3, 0, -0.5]
+start_velocity_m_s = [0.3, -0.5, 0]
 start_spin_rad_s = 2
 )";
 
@@ -90,6 +90,7 @@ std::vector<LimitCase> MechanismLimits::joints() {
   const std::string ball = std::string(kTime) + kBall;
   std::string falling = ball;
   falling.replace(falling.find("\"xy\""), 4, "\"zx\"");
+  falling.replace(falling.find("-0.5, 0"), 7, "0, -0.5");
   const std::string at = "{ body = \"ball\", at_mm = [20, 110, 0] }";
   const std::string disc = std::string(kTime) +
                            "[[rigid_body]]\nname = \"disc\"\nmotion = \"space\"\nmass_kg = 2\n"
