@@ -70,7 +70,7 @@ std::shared_ptr<double[]> spilled_array(size_t count) {
 
 void keep_freed_memory() {
 #ifndef __SANITIZE_ADDRESS__  // has an allocator of its own, which marks every byte
-  mallopt(M_MMAP_MAX, 0);  // otherwise large arrays would be unmapped when freed
+  mallopt(M_MMAP_MAX, 0);     // otherwise large arrays would be unmapped when freed
   mallopt(M_TRIM_THRESHOLD, -1);
   // The heap grows by this once, without access, so all that is allocated in it has large pages.
   const auto bytes = static_cast<size_t>(kLargePages * memory_limit_gib() * kBytesPerGib);

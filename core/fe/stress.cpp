@@ -41,8 +41,7 @@ RowMatrix corner_stress(const RowMatrix& nodes, const CellBlock& block, const Ma
         if (rise.size() > 0) rise(a) = dT(node);
       }
       Eigen::Map<StressRows>(out.row(c).data(), corners, 6).noalias() =
-          smoothing *
-          point_stress(block.type, stress_points(block.type), x, material, moved, rise);
+          smoothing * point_stress(block.type, stress_points(block.type), x, material, moved, rise);
     }
   });
   return out;

@@ -13,8 +13,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
-#include <new>
 #include <map>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <thread>
