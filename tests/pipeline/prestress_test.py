@@ -34,8 +34,8 @@ def column(force, steps):
         cell = [node(2 * i + a, b, c) for a, b, c in HEX20]
         cells.append(f"{i + 1}, " + ", ".join(map(str, cell[:15])) + ",\n" + ", ".join(map(str, cell[15:])))
     wall, end = (", ".join(str(number) for (i, _, _), number in numbers.items() if i == at) for at in (0, 40))
-    text = ["*NODE", *nodes, "*ELEMENT, TYPE=C3D20, ELSET=BAR", *cells, f"*NSET, NSET=WALL\n{wall}", f"*NSET, NSET=END\n{end}", "*MATERIAL, NAME=STEEL",
-            "*ELASTIC", f"{E}, .3", "*DENSITY", f"{DENSITY}", "*SOLID SECTION, ELSET=BAR, MATERIAL=STEEL", "*BOUNDARY", "WALL, 1, 3"]
+    text = ["*NODE", *nodes, "*ELEMENT, TYPE=C3D20, ELSET=BAR", *cells, f"*NSET, NSET=WALL\n{wall}", f"*NSET, NSET=END\n{end}",
+            "*MATERIAL, NAME=STEEL", "*ELASTIC", f"{E}, .3", "*DENSITY", f"{DENSITY}", "*SOLID SECTION, ELSET=BAR, MATERIAL=STEEL", "*BOUNDARY", "WALL, 1, 3"]
     return "\n".join([*text, *(line.format(load=f"*CLOAD\nEND, 1, {-force / 8:.9g}") for line in steps), ""])
 
 
